@@ -80,11 +80,11 @@ class ExcessDistances {
 
   /// Computes the excess of every sample for a query.
   /// @param query  scaled input.
-  /// @param reach  excess above which a lower bound is sufficient: samples beyond it may get any
-  ///   excess that is at least `reach`.
-  /// @param skip   samples to leave out (their excess is infinite), or null.
-  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
-                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
+  /// @param excess_limit  excess above which a lower bound is sufficient: samples beyond it may
+  ///   get any excess that is at least `excess_limit`.
+  /// @param excluded   samples to leave out (their excess is infinite), or null.
+  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
+                                const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded = nullptr);
 
   /// Range [first, last) of samples. It contains all samples whose excess is below the argument
   /// `reach` of the last call of `compute`.

@@ -19,7 +19,7 @@ class ConsistentInitialization {
         step_(step),
         n_(system.coordinate_count()),
         m_(system.constraint_count()),
-        rigid_((system.compliance().array() == 0).cast<double>()),
+        rigid_((system.row_compliance().array() == 0).cast<double>()),
         matrix_(n_, m_, system.coupled_unknowns()),
         constraint_residual_(VectorXd::Zero(m_)),
         constraint_rate_(VectorXd::Zero(m_)),
@@ -83,7 +83,7 @@ class ConsistentInitialization {
   void assemble(double fraction) {
     const double stiffness = fraction * fraction * step_ * step_;
     matrix_.clear();
-    system_.tangent(state_, {1, 0, stiffness, 1 / stiffness}, matrix_);
+    system_.add_tangent(state_, {1, 0, stiffness, 1 / stiffness}, matrix_);
   }
 
   bool project_positions() {
@@ -154,7 +154,7 @@ class ConsistentInitialization {
     system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
     const double tau = system_.strain_rate_damping();
     for (Index r = 0; r < m_; ++r) {
-      const double c = system_.compliance()[r];
+      const double c = system_.row_compliance()[r];
       state_.lambda[r] = c > 0 ? (constraint_residual_[r] + tau * constraint_rate_[r]) / c : 0.0;
     }
     const VectorXd bias = acceleration_bias();

@@ -24,7 +24,7 @@ MotionResiduals::MotionResiduals(const ConstrainedSystem& system)
 void MotionResiduals::add_term_magnitudes(const TangentCoefficients& coefficients,
                                           const State& state) {
   matrix_.clear();
-  system_.tangent(state, coefficients, matrix_);
+  system_.add_tangent(state, coefficients, matrix_);
   matrix_.term_magnitudes(unknowns_, magnitudes_);
   terms_ += magnitudes_;
 }
@@ -49,7 +49,7 @@ ConstraintGaps MotionResiduals::largest_gaps(const State& state) {
   system_.constraint_residual(state, constraint_residual_, constraint_rate_);
   ConstraintGaps gaps;
   for (Index r = 0; r < constraint_residual_.size(); ++r) {
-    if (system_.compliance()[r] > 0) continue;
+    if (system_.row_compliance()[r] > 0) continue;
     const double position = std::abs(constraint_residual_[r]), rate = std::abs(constraint_rate_[r]);
     gaps.position = nan_max(gaps.position, position);
     gaps.rate = nan_max(gaps.rate, rate);
@@ -62,7 +62,7 @@ ConstraintGaps MotionResiduals::largest_gaps(const State& state) {
 AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
   constexpr Index kLargest = 64;  // largest number of coordinates of a dense determinant
   const Index n = system.coordinate_count();
-  const Index rigid = (system.compliance().array() == 0).count();
+  const Index rigid = (system.row_compliance().array() == 0).count();
   freedom_ = n - rigid;
   const bool is_mechanism = rigid == system.constraint_count() && (freedom_ == 0 || freedom_ == 1);
   if (n > 0 && n <= kLargest && is_mechanism) matrix_.emplace(n, rigid, system.coupled_unknowns());
@@ -86,7 +86,7 @@ double AssemblyBranch::branch_sign(const State& state) {
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;
   matrix_->clear();
-  system_.tangent(state, coefficients, *matrix_);
+  system_.add_tangent(state, coefficients, *matrix_);
   Eigen::MatrixXd G(n, n);
   G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_units());
   if (freedom_ == 1) {
@@ -179,7 +179,7 @@ ConstrainedStepper::ConstrainedStepper(const ConstrainedSystem& system,
       scheme_(scheme),
       branch_(system),
       residuals_(system),
-      projects_(scheme.keeps_rates && (system.compliance().array() == 0).any()),
+      projects_(scheme.keeps_rates && (system.row_compliance().array() == 0).any()),
       A0_(start.a),
       A1_(start.a),
       velocity_correction_(VectorXd::Zero(system.coordinate_count() + system.constraint_count())),
@@ -226,14 +226,14 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   return report;
 }
 
-void ConstrainedStepper::accept(const Step& step, bool inspect, Evidence& evidence) {
+void ConstrainedStepper::accept(const Step& step, bool check_motion, Evidence& evidence) {
   advance();
   last_step_ = from_.t - to_.t;
   first_ = false;
   const ConstraintGaps gaps = residuals_.largest_gaps(from_);
   evidence.add(Residual::constraints, gaps.relative_position);
   if (scheme_.keeps_rates) evidence.add(Residual::constraints, step.size * gaps.relative_rate);
-  if (inspect) {
+  if (check_motion) {
     accepted_residual(force_residual_);
     evidence.add(Residual::equation_of_motion, relation_residual_);
     evidence.add(Residual::equation_of_motion, residuals_.motion_residual(from_, force_residual_));
@@ -313,14 +313,14 @@ bool ConstrainedStepper::assemble_tangent(double h, bool /*exact*/) {
   coefficients.stiffness = scheme_.relations.position_gain() * h * h;
   coefficients.compliance =
       acceleration_slope(h) / (1 + system_.strain_rate_damping() * velocity_slope(h));
-  system_.tangent(to_, coefficients, matrix_);
+  system_.add_tangent(to_, coefficients, matrix_);
   return system_.has_symmetric_tangent();
 }
 
 double ConstrainedStepper::elastic_residual(Index r, double h) const {
   const double tau = system_.strain_rate_damping();
   const double sum = constraint_residual_[r] + tau * constraint_rate_[r];
-  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * velocity_slope(h));
+  return -(sum - system_.row_compliance()[r] * to_.lambda[r]) / (1 + tau * velocity_slope(h));
 }
 
 /// Computes one Newton correction of a step. Positions are corrected first, with the residuals of
@@ -335,14 +335,14 @@ void ConstrainedStepper::correct(double h) {
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   for (Index r = 0; r < m; ++r)
     velocity_correction_[n + r] =
-        system_.compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
+        system_.row_compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
   position_correction_ = velocity_correction_;
   matrix_.solve(position_correction_);
   to_.q += position_correction_.head(n);
   if (projects_) {
     system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
     for (Index r = 0; r < m; ++r) {
-      if (system_.compliance()[r] == 0)
+      if (system_.row_compliance()[r] == 0)
         velocity_correction_[n + r] = -constraint_rate_[r] / velocity_slope(h);
     }
     matrix_.solve(velocity_correction_);
@@ -377,7 +377,7 @@ double ConstrainedStepper::correction_roundoff(double h) const {
   multipliers.tail(m) = to_.lambda / acceleration_slope(h);
   matrix_.term_magnitudes(multipliers, errors);
   errors.tail(m) =
-      (system_.compliance().array() == 0).select(scaled_norm(to_.q) * system_.row_units(), 0);
+      (system_.row_compliance().array() == 0).select(scaled_norm(to_.q) * system_.row_units(), 0);
   errors = kEps * errors.cwiseProduct(start_vectors(n + m, 1));
   matrix_.solve(errors);
   return size(errors.head(n));
@@ -454,7 +454,7 @@ bool EnergyMomentum::assemble_tangent(double h, bool exact) {
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }
-  system_.tangent(midpoint_, coefficients, matrix_);
+  system_.add_tangent(midpoint_, coefficients, matrix_);
   return system_.has_symmetric_tangent();
 }
 
@@ -462,7 +462,7 @@ double EnergyMomentum::elastic_residual(Index r, double h) const {
   const double g0 = previous_constraint_residual_[r], g1 = constraint_residual_[r];
   const double rate = system_.strain_rate_damping() / h;
   const double sum = (g0 + g1) / 2 + rate * (g1 - g0);
-  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (0.5 + rate);
+  return -(sum - system_.row_compliance()[r] * to_.lambda[r]) / (0.5 + rate);
 }
 
 /// Computes the multipliers at the end of the step. Multipliers of elastic rows follow from the
@@ -474,7 +474,7 @@ void EnergyMomentum::end_step(double h) {
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   to_.lambda = mean_lambda_ + extrapolation * (mean_lambda_ - previous_mean_lambda_);
   for (Index r = 0; r < system_.constraint_count(); ++r) {
-    const double c = system_.compliance()[r];
+    const double c = system_.row_compliance()[r];
     if (c > 0) to_.lambda[r] = (constraint_residual_[r] + tau * constraint_rate_[r]) / c;
   }
 }

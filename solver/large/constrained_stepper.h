@@ -90,7 +90,7 @@ class ConstrainedStepper : public Stepper {
                      const State& start, const Observer& observe);
 
   [[nodiscard]] StepReport attempt(const Step& step) override;
-  void accept(const Step& step, bool inspect, Evidence& evidence) override;
+  void accept(const Step& step, bool check_motion, Evidence& evidence) override;
   void restart() override { first_ = true; }
   void output_state() override {
     if (observe_) observe_(from_);

@@ -56,7 +56,7 @@ class ConstrainedSystem {
   [[nodiscard]] virtual Index coordinate_count() const = 0;
   [[nodiscard]] virtual Index constraint_count() const = 0;
   /// Returns the compliance c >= 0 of each constraint row.
-  [[nodiscard]] virtual const VectorXd& compliance() const = 0;
+  [[nodiscard]] virtual const VectorXd& row_compliance() const = 0;
   /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
   /// Returns the unit of the residual of each constraint: the model size [m] or 1 rad.
@@ -70,8 +70,8 @@ class ConstrainedSystem {
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                                    Eigen::Ref<VectorXd> rate) const = 0;
   /// Adds the tangent matrix of a state to `matrix`, which the caller has cleared.
-  virtual void tangent(const State& state, const TangentCoefficients& coefficients,
-                       KktMatrix& matrix) const = 0;
+  virtual void add_tangent(const State& state, const TangentCoefficients& coefficients,
+                           KktMatrix& matrix) const = 0;
   /// Returns false if the tangent matrix is not symmetric, as with follower loads.
   [[nodiscard]] virtual bool has_symmetric_tangent() const { return true; }
   /// Returns the coefficient tau of strain-rate damping [s].

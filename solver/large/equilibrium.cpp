@@ -38,7 +38,7 @@ bool Equilibrium::converged(const std::vector<double>& correction, double displa
 
 bool Equilibrium::factorize_tangent(const State& state) {
   matrix_.clear();
-  system_.tangent(state, TangentCoefficients{}, matrix_);
+  system_.add_tangent(state, TangentCoefficients{}, matrix_);
   for (const auto& [k, stiffness] : held_) matrix_.add_diagonal(k, stiffness);
   const bool regular = matrix_.factor(system_.has_symmetric_tangent());
   factored_ = regular ? state : State();
@@ -60,10 +60,10 @@ void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual)
   system_.force_residual(state, residual.head(n));
   system_.constraint_residual(state, constraint_residual_, constraint_rate_);
   residual.tail(system_.constraint_count()) =
-      constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+      constraint_residual_ - system_.row_compliance().cwiseProduct(state.lambda);
   const double tau = system_.strain_rate_damping();
   for (Index row = 0; tau != 0 && row < system_.constraint_count(); ++row)
-    if (system_.compliance()[row] > 0) residual[n + row] += tau * constraint_rate_[row];
+    if (system_.row_compliance()[row] > 0) residual[n + row] += tau * constraint_rate_[row];
   if (held_damping_.size() > 0) residual += held_damping_;
 }
 
@@ -110,7 +110,7 @@ double Equilibrium::backward_error(const State& state) {
   x.head(n) = motion.cwiseMax(kLeastFraction * largest_motion).cwiseProduct(system_.scale());
   x.tail(m) = force.cwiseMax(kLeastFraction * largest_force).cwiseProduct(force_unit_);
   matrix_.clear();
-  system_.tangent(state, TangentCoefficients{}, matrix_);
+  system_.add_tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);
   matrix_.term_magnitudes(x, terms);
   system_.load_factor_derivative(state, load);

@@ -51,7 +51,8 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
   mass_.setFromTriplets(masses.begin(), masses.end());
   gravity_ = mass_ * gravity_field(model_, layout_);
   const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal(), model_size(model_));
-  parts_.for_each_group([&](auto& group) { group.connect(layout_.free, scales, rows_); });
+  parts_.for_each_group(
+      [&](auto& group) { group.append_system_rows(layout_.free, scales, rows_); });
 }
 
 void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {
@@ -66,7 +67,7 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
   }
   add_torques(-1, state.t, r);
   parts_.for_each_group(
-      [&](const auto& group) { group.forces(state, large_motion_.strain_rate_damping, r); });
+      [&](const auto& group) { group.add_forces(state, large_motion_.strain_rate_damping, r); });
 }
 
 VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
@@ -100,11 +101,12 @@ TangentCoefficients GeometricallyExactSystem::prepare_tangent(
   return coefficients;
 }
 
-void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
-                                       KktMatrix& matrix) const {
+void GeometricallyExactSystem::add_tangent(const State& state,
+                                           const TangentCoefficients& coefficients,
+                                           KktMatrix& matrix) const {
   const TangentCoefficients damped = prepare_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
-    group.tangent(state, large_motion_.strain_rate_damping, damped, matrix);
+    group.add_tangent(state, large_motion_.strain_rate_damping, damped, matrix);
   });
 }
 

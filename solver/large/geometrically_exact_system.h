@@ -23,7 +23,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
 
   [[nodiscard]] Index coordinate_count() const override { return layout_.free; }
   [[nodiscard]] Index constraint_count() const override { return parts_.rows; }
-  [[nodiscard]] const VectorXd& compliance() const override { return rows_.compliance; }
+  [[nodiscard]] const VectorXd& row_compliance() const override { return rows_.compliance; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
   [[nodiscard]] VectorXd row_units() const override { return rows_.unit; }
   [[nodiscard]] std::vector<std::vector<Index>> coupled_unknowns() const override {
@@ -32,8 +32,8 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const TangentCoefficients& coefficients,
-               KktMatrix& matrix) const override;
+  void add_tangent(const State& state, const TangentCoefficients& coefficients,
+                   KktMatrix& matrix) const override;
   [[nodiscard]] bool has_symmetric_tangent() const override;
   [[nodiscard]] double strain_rate_damping() const override {
     return large_motion_.strain_rate_damping;

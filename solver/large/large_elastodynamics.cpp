@@ -427,9 +427,9 @@ RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate) {
 }
 
 TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, double start,
-                                Index part, Index from) {
-  const auto seen = [part, from](const Vector9d& values) {
-    return values[part] - (from < 0 ? 0.0 : values[from]);
+                                Index part, Index reference_part) {
+  const auto seen = [part, reference_part](const Vector9d& values) {
+    return values[part] - (reference_part < 0 ? 0.0 : values[reference_part]);
   };
   const auto last = std::make_shared<Turn>(Turn{start, 0, seen(motion(start).q_dot)});
   const auto law = [motion, seen, before = seen(motion(start).q), last](double t) {

@@ -52,14 +52,14 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// because all joints and all corrections of a step request the motion at the same time.
 [[nodiscard]] RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate);
 
-/// Returns the rotation of a part since the time `start` relative to the part `from` or the ground
-/// (-1) [rad], including full turns, as a function of time. Parts are indices in
+/// Returns the rotation of a part since the time `start` relative to the part `reference_part` or
+/// the ground (-1) [rad], including full turns, as a function of time. Parts are indices in
 /// `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. The rotation is
 /// tracked from the last request in increments of 0.5 rad. Beyond the ends of the path, the
 /// rotation is extrapolated with the acceleration and its rate at the end. Central differences
 /// in time at the first and last times of the path require values beyond its ends.
 [[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
-                                              double start, Index part, Index from = -1);
+                                              double start, Index part, Index reference_part = -1);
 
 /// Additional node at a joint for the end of a distal link. Its rotation is driven relative to the
 /// node of the joint.

@@ -43,11 +43,11 @@ class ShiftedStiffness {
     TangentCoefficients coefficients;
     coefficients.mass = -w2;
     factored_.clear();
-    system.tangent(state, coefficients, factored_);
+    system.add_tangent(state, coefficients, factored_);
     exists_ = factored_.factor(system.has_symmetric_tangent());
     coefficients.has_penalty = false;
     plain_.clear();
-    system.tangent(state, coefficients, plain_);
+    system.add_tangent(state, coefficients, plain_);
   }
 
   /// Returns false if the matrix is singular.

@@ -29,7 +29,7 @@ struct PlacedElement {
   const ElementGroup<Element>& group = system.parts().group<Element>();
   Index place = system.parts().group_index[to_size(index)];
   const Element& element = group.element(place);
-  const CoordinateIndices<N>& where = group.coordinates(place);
+  const CoordinateIndices<N>& where = group.coordinate_indices(place);
   Coordinates q = gather<N>(state.q, where);
   int stride = static_cast<int>(placed.coordinates_per_node());
 
@@ -224,19 +224,19 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
 }
 
 Index redundant_constraint_count(const GeometricallyExactSystem& system, const State& state) {
-  const Index rigid = (system.compliance().array() == 0).count();
+  const Index rigid = (system.row_compliance().array() == 0).count();
   if (rigid == 0 || rigid > kMaxCountedConstraints || system.coordinate_count() == 0) return 0;
   KktMatrix matrix(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns());
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;
   matrix.clear();
-  system.tangent(state, coefficients, matrix);
+  system.add_tangent(state, coefficients, matrix);
   Eigen::SparseMatrix<double> columns =
       matrix.constraint_gradient(system.scale(), system.row_units()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
     const double size = columns.col(r).norm();  // 0 if supports hold both ends
-    if (system.compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
+    if (system.row_compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
   }
   columns = columns * factor.asDiagonal();
   columns.prune(0.0);

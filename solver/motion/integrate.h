@@ -100,9 +100,9 @@ class Stepper {
   [[nodiscard]] virtual Outcome begin(const Step& /*first*/, double /*stop*/) { return {}; }
   /// Attempts a step. The result is pending until it is accepted.
   [[nodiscard]] virtual StepReport attempt(const Step& step) = 0;
-  /// Accepts the last attempted step. With `inspect`, the equation of motion is also checked.
+  /// Accepts the last attempted step. With `check_motion`, the equation of motion is also checked.
   /// `evidence` receives residuals.
-  virtual void accept(const Step& step, bool inspect, Evidence& evidence) = 0;
+  virtual void accept(const Step& step, bool check_motion, Evidence& evidence) = 0;
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
   /// Outputs the last accepted state, at the start and at a sample time.

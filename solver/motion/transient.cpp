@@ -155,7 +155,7 @@ class LinearStepper final : public Stepper {
 
   [[nodiscard]] Outcome begin(const Step& first, double stop) override;
   [[nodiscard]] StepReport attempt(const Step& step) override;
-  void accept(const Step& step, bool inspect, Evidence& evidence) override;
+  void accept(const Step& step, bool check_motion, Evidence& evidence) override;
   [[nodiscard]] std::string describe(const StepReport& report) const override {
     std::ostringstream text;
     if (report.status == Status::singular) {
@@ -420,10 +420,10 @@ void LinearStepper::update_energies(double load_time) {
                   .dissipated = now_->shown.dissipated + 0.5 * way.dot(from.drag + to.drag)};
 }
 
-void LinearStepper::accept(const Step& step, bool inspect, Evidence& /*evidence*/) {
+void LinearStepper::accept(const Step& step, bool check_motion, Evidence& /*evidence*/) {
   update_energies(load_time(step));
   evidence_.add_energy_balance(*now_, *next_, step.size);
-  if (inspect || output_.covers(next_->time)) {
+  if (check_motion || output_.covers(next_->time)) {
     evidence_.add_scheme_residual(*now_, *next_, step.size);
     evidence_.add_equilibrium(next_->time, load_time(step), next_->q, next_->v, next_->a,
                               step.size);
