@@ -188,7 +188,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
 }
 
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
-  CheckResult worst = *std::ranges::min_element(entries, results::worse);
+  CheckResult worst = *std::ranges::min_element(entries, results::is_worse_than);
   worst.message = "worst of " + std::to_string(entries.size()) +
                   (worst.message.empty() ? "" : ": " + worst.message);
   return {worst};

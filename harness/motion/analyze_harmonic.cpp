@@ -68,7 +68,7 @@ class HarmonicScene {
     if (!resonances) {
       add_warning(warnings, {"the number of natural frequencies found in the range", 0, "",
                              "a narrow peak between two of 65 frequencies may have been missed"});
-      const Eigen::VectorXd damped = response->frequencies();
+      const Eigen::VectorXd damped = response->damped_mode_frequencies();
       resonances.emplace(damped.begin(), damped.end());
     }
     std::vector<double> peaks;
@@ -171,7 +171,7 @@ StepResult analyze_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (needs_forces(scene.outputs)) warn_of_redundant_constraints(scene.system, result.warnings);
   const double peak = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) scene.draw_at(peak, *result.drawing);
-  for (const double frequency : scene.response->frequencies())
+  for (const double frequency : scene.response->damped_mode_frequencies())
     record.add("natural_frequency_Hz", frequency);
   record.add("degrees_of_freedom", scene.system.K.rows());
   result.counters += scene.response->counters();

@@ -87,7 +87,7 @@ class ExcessDistances {
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded = nullptr);
 
   /// Range [first, last) of samples. It contains all samples whose excess is below the argument
-  /// `reach` of the last call of `compute`.
+  /// `excess_limit` of the last call of `compute`.
   [[nodiscard]] Index first_sample_in_reach() const { return first_; }
   [[nodiscard]] Index end_sample_in_reach() const { return last_; }
 

@@ -36,9 +36,9 @@ double MotionResiduals::motion_residual(const State& state, const VectorXd& resi
   unknowns_.tail(state.lambda.size()).setZero();
   // Use a negligible stiffness instead of zero, because rows of massless coordinates would be
   // divided by zero.
-  add_terms({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
+  add_term_magnitudes({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
-  add_terms({}, state);
+  add_term_magnitudes({}, state);
   const auto scale = system_.scale().array();
   const double least = n > 0 ? kLeastFraction * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);

@@ -472,8 +472,9 @@ VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& mass = model.masses[i];
     if (mass.offset.isZero(0)) continue;
-    const Vector2d center = node.row(mass.node).head<2>().transpose() +
-                            motion.part_motion_at_node(mass.node).derivative(mass.offset, order);
+    const Vector2d center =
+        node.row(mass.node).head<2>().transpose() +
+        motion.part_motion_at_node(mass.node).rotated_derivative(mass.offset, order);
     for (std::size_t k = 0; k < 2; ++k)
       rates[system.layout().mass_center[i][k]] = center[static_cast<Index>(k)];
   }

@@ -87,7 +87,7 @@ class Solver {
  private:
   void factor(double t) {
     if (!pencil_.B) return;
-    factorization_.compute(shifted(*pencil_.K, *pencil_.B, t));
+    factorization_.compute(shifted_matrix(*pencil_.K, *pencil_.B, t));
     ++counters_.factorizations;
   }
 
@@ -154,7 +154,7 @@ class Solver {
       return x;
     };
     const auto apply = [&](const Eigen::Ref<const VectorXd>& x) -> VectorXd {
-      const VectorXd p = factorization_.solve_half_transposed(complement(x));
+      const VectorXd p = factorization_.apply_inverse_factor_transposed(complement(x));
       ++counters_.solves;
       return complement(factorization_.apply_inverse_factor(times_B(p)));
     };
@@ -164,7 +164,7 @@ class Solver {
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
     MatrixXd found(size_, (mu.array() > zero).count());
     for (Index j = 0; j < found.cols(); ++j)
-      found.col(j) = factorization_.solve_half_transposed(complement(Y.col(j)));
+      found.col(j) = factorization_.apply_inverse_factor_transposed(complement(Y.col(j)));
     return found;
   }
 
@@ -437,9 +437,9 @@ double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
 
 }  // namespace
 
-Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, Index count,
+Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null_vectors, Index count,
                              EigenMethod method, Factorization& factorization, Counters& counters) {
-  return Solver(pencil, null, count, method, factorization, counters).run();
+  return Solver(pencil, null_vectors, count, method, factorization, counters).run();
 }
 
 bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
@@ -449,7 +449,7 @@ bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
          std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
 }
 
-SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
+SparseMatrix shifted_matrix(const SparseMatrix& K, const SparseMatrix& B, double t) {
   if (!same_pattern(K, B)) return K - t * B;
   SparseMatrix A = K;
   A.coeffs() -= t * B.coeffs();
@@ -476,7 +476,7 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
                               Factorization&& spent, double shift_above) {
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
-  const auto count_below = [&](double t) { return factorization.inertia(shifted(A, B, t)); };
+  const auto count_below = [&](double t) { return factorization.inertia(shifted_matrix(A, B, t)); };
   if (found.size() == 0) {  // the count must be zero for any large shift
     const std::optional<Index> counted = count_below(shift_above_all(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;

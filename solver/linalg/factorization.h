@@ -48,7 +48,7 @@ class SparseLdlt {
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   /// Returns y = D^(-1/2) L^-1 P b and x = P^T L^-T D^(-1/2) y for a positive definite A.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor_transposed(const Eigen::VectorXd& y) const;
 
  private:
   struct Factors;
@@ -83,7 +83,7 @@ class Factorization {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Returns y = F^-1 b and x = F^-T y with F F^T = A, for a positive definite A.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor_transposed(const Eigen::VectorXd& y) const;
 
   [[nodiscard]] const Eigen::VectorXd& scaling() const { return scaling_; }
 

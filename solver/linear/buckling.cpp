@@ -45,7 +45,7 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
     for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot is near zero
       counted = share * t;
       ++counters.factorizations;
-      if (const std::optional<Index> count = factorization.inertia(shifted(K, B, counted)))
+      if (const std::optional<Index> count = factorization.inertia(shifted_matrix(K, B, counted)))
         return *count > 0;
     }
     return {};
@@ -101,7 +101,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
     return projected_stiffness(system, system.T * X);
   };
-  factorization.compute(shifted(system.K, softening, pencil.shift));
+  factorization.compute(shifted_matrix(system.K, softening, pencil.shift));
   ++solution.counters.factorizations;
   const Eigen::MatrixXd no_null(system.K.rows(), 0);
   const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,

@@ -84,8 +84,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
 /// @param element  frame element.
-/// @param load  load per unit length in world axes [N/m].
-[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
+/// @param line_load  load per unit length in world axes [N/m].
+[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& line_load);
 
 /// Returns the elastic forces K u on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);

@@ -254,7 +254,7 @@ Outcome require_determinate_prestress(const System& system) {
     amount = std::fmod(amount + std::numbers::phi, 1.0) + 0.5;
   }
   if (selfstress.isZero(0)) return {};
-  selfstress += constraints.multipliers(force);
+  selfstress += constraints.lagrange_multipliers(force);
   const BodyForces none{std::vector<Vector2d>(system.mesh.frame.size(), Vector2d::Zero()),
                         std::vector<Vector2d>(system.model.masses.size(), Vector2d::Zero())};
   const VectorXd at_rest = VectorXd::Zero(system.T.rows());

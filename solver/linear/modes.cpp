@@ -92,7 +92,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   if (state) stiffened = system.K + K_G;
   const SparseMatrix& K = state ? stiffened : system.K;
   Factorization factorization;
-  factorization.compute(shifted(K, system.M, 0));
+  factorization.compute(shifted_matrix(K, system.M, 0));
   ++counters.factorizations;
   ZeroEnergyModes free{MatrixXd(K.rows(), 0)};
   if (!state) {
@@ -114,7 +114,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     pencil.B = &system.M;
     if (free.count() > 0) {
       pencil.shift = floating_shift(system, free.basis, counters);
-      factorization.compute(shifted(system.K, system.M, pencil.shift));
+      factorization.compute(shifted_matrix(system.K, system.M, pencil.shift));
       ++counters.factorizations;
     }
     pencil.K_times = [&, elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {

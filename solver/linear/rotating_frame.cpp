@@ -277,7 +277,7 @@ double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& m
         w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
   const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
-  const auto counted = Factorization().inertia(shifted(pencil.K, pencil.M, 1e4 * last));
+  const auto counted = Factorization().inertia(shifted_matrix(pencil.K, pencil.M, 1e4 * last));
   return counted ? std::abs(static_cast<double>(*counted - w.size())) : kNaN;
 }
 
@@ -318,10 +318,9 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   const SparseMatrix& added = steady.added_stiffness();
   result.evidence.add(Residual::equilibrium,
                       steady_backward_error(system, added, state.q, options.frame));
-  const bool has_gyroscopic_forces =
-      options.gyroscopic && options.frame.axis == RotationAxis::normal;
+  const bool is_gyroscopic = options.gyroscopic && options.frame.axis == RotationAxis::normal;
   SparseMatrix C(system.K.rows(), system.K.cols());
-  if (has_gyroscopic_forces) {
+  if (is_gyroscopic) {
     C = 2 * speed * gyroscopic_matrix(system);
     result.counters.count(Effect::gyroscopic, 1);
   }

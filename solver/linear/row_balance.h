@@ -29,7 +29,7 @@ class RowBalance {
   void add(const SparseMatrix& A, const Matrix& q);
   /// Adds magnitudes to the scales of the rows of the unconstrained coordinates. They are the
   /// larger values if a term was added as their difference.
-  void add_terms(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
+  void add_term_magnitudes(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
 
   /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates. It
   /// is the smallest relative change of matrices and loads for which the states are exact.
@@ -46,7 +46,7 @@ class RowBalance {
  private:
   /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.
   [[nodiscard]] Eigen::MatrixXd bounded_magnitudes(const Matrix& u) const;
-  [[nodiscard]] Matrix rows() const;
+  [[nodiscard]] Matrix row_residuals() const;
   [[nodiscard]] Eigen::MatrixXd row_term_magnitudes() const;
 
   const System& system_;

@@ -115,7 +115,7 @@ Eigen::VectorXd applied_load(const System& system) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const NodalLoad& load : model.loads) {
     if (load.force[2] != 0) {  // throws if the node has no rotation
-      (void)system.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
+      (void)system.coordinates.index_of(model, {Coordinate::Kind::rotation, load.node, -1, 0});
     }
     detail::scatter(node[to_size(load.node)], load.force, sum);
   }
@@ -136,14 +136,14 @@ Eigen::VectorXd applied_load(const System& system) {
 
 }  // namespace
 
-Vector6d element_load(const FrameElement& element, const Vector2d& load) {
+Vector6d element_load(const FrameElement& element, const Vector2d& line_load) {
   if (element.is_bar()) {
     Vector6d f;
-    f << load * (element.length / 2), 0, load * (element.length / 2), 0;
+    f << line_load * (element.length / 2), 0, line_load * (element.length / 2), 0;
     return f;
   }
   const Matrix6d R = frame_transformation_matrix(element.direction);
-  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
+  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * line_load, element.length);
 }
 
 System assemble(const Model& model, Effects active) {

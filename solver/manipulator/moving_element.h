@@ -21,7 +21,7 @@ struct PartMotion {
   bool operator==(const PartMotion&) const = default;
   /// Returns a vector that rotates with the part (order 0), or its time derivative (order 1, 2).
   /// The vector is `at_start` at the pose at which the model was built.
-  [[nodiscard]] Vector2d derivative(const Vector2d& at_start, int order) const;
+  [[nodiscard]] Vector2d rotated_derivative(const Vector2d& at_start, int order) const;
 };
 
 /// Nominal motion: every member, plate and rigid body of a model moves as a rigid part.
@@ -87,11 +87,11 @@ struct MovingElement {
   Index part = -1;                           ///< index in NominalMotion::part; -1: does not turn
   Vector2d first_moment = Vector2d::Zero();  ///< mass * offset of a point mass [kg m]
 
-  [[nodiscard]] PartMotion motion(const NominalMotion& nominal) const {
+  [[nodiscard]] PartMotion part_motion(const NominalMotion& nominal) const {
     return part < 0 ? PartMotion{} : nominal.part[to_size(part)];
   }
   /// Returns the element x axis during a motion, world axes.
-  [[nodiscard]] Vector2d direction(const NominalMotion& nominal) const;
+  [[nodiscard]] Vector2d axis_direction(const NominalMotion& nominal) const;
   /// Returns the number of coordinates per node.
   [[nodiscard]] Index coordinates_per_node() const { return layout == Layout::triangle ? 2 : 3; }
 

@@ -66,7 +66,7 @@ void MotionEvidence::add_energy_balance(const TransientState& from, const Transi
   const double c = h * h * (s.beta - s.gamma / 2);
   double added = 0.5 * ((a * from.A + b * to.A).dot(from.Mv + to.Mv) -
                         ((h / 2) * (from.v + to.v) + c * (to.A - from.A)).dot(from.Ma + to.Ma));
-  if (!matrices_.constant())
+  if (!matrices_.is_constant())
     added += 0.5 * (from.q.dot(to.Kq) - to.q.dot(from.Kq) + from.v.dot(to.Mv) - to.v.dot(from.Mv));
   if (unbalanced_.size() > 0) {
     added -= 0.5 * (to.q - from.q).dot(unbalanced_);

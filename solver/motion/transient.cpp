@@ -233,7 +233,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   residual_ = now_->f - now_->Cv - now_->Kq;
   const bool is_start = !mass_factor_;
   if (is_start) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
-  if (is_start || !matrices_.constant()) {
+  if (is_start || !matrices_.is_constant()) {
     ++counters_.factorizations;
     mass_is_singular_ = !mass_factor_->factorize(matrices_.M()) ||
                         mass_factor_->smallest_pivot_to_diagonal() < kSingularMass;
@@ -241,7 +241,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   start_factor_ = mass_is_singular_ ? step_factor(first) : mass_factor_.get();
   if (!start_factor_) return {Status::singular, "the matrix M + C h + K h^2 is singular"};
   massless_balance_ =
-      mass_is_singular_ && matrices_.constant() && massless_.factor(matrices_, h, counters_);
+      mass_is_singular_ && matrices_.is_constant() && massless_.factor(matrices_, h, counters_);
   if (massless_balance_) {
     settle_massless(h);
   } else {
@@ -308,10 +308,10 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
 /// Returns the factors of the step matrix M + gamma' h C + beta' h^2 K, or null if it is singular.
 /// gamma' and beta' are the gains of velocity and position (`TimeScheme`), and h is the step size.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
-  const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
+  const auto index = matrices_.is_constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);
   auto& [size, factor] = factors_[index];
-  if (factor && matrices_.constant() && size == step.size) return factor.get();
+  if (factor && matrices_.is_constant() && size == step.size) return factor.get();
   if (!factor) factor = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
   size = step.size;
   const double c = scheme_.velocity_gain() * step.size;
