@@ -198,7 +198,7 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
                                           const results::SolverIdentity* other_solver) {
   std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
-    CheckResult entry = start_check_result(check);
+    CheckResult entry = create_check_result(check);
     if (check.statistic.empty()) entry.index = check.index.empty() ? i : check.index[i];
     entry.computed = pairs.computed[i];
     if (!pairs.expected.empty()) entry.expected = pairs.expected[i];
@@ -257,7 +257,7 @@ std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& 
   return entries;
 }
 
-CheckResult start_check_result(const Check& check) {
+CheckResult create_check_result(const Check& check) {
   CheckResult entry;
   entry.name = check.name;
   entry.title = check.title;
@@ -275,7 +275,7 @@ CheckResult start_check_result(const Check& check) {
 }
 
 CheckResult failed_check_result(const Check& check, const std::string& message) {
-  CheckResult entry = start_check_result(check);
+  CheckResult entry = create_check_result(check);
   entry.message = message;
   return entry;
 }

@@ -53,7 +53,7 @@ class HarmonicScene {
         record.add(output.name, output.value(system.model, amplitudes));
       }
     }
-    if (damped_) result.counters.count(solver::Effect::damping, 1);
+    if (damped_) result.counters.add(solver::Effect::damping, 1);
     if (q.size() == 0) return;
     result.evidence.add(solver::Residual::equilibrium, response->backward_error(q, frequency));
     for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})

@@ -256,7 +256,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   result.evidence = summary.evidence;
   result.counters = summary.counters;
   solver::count_element_evaluations(system, summary.iterations, true, result.counters);
-  if (damped) result.counters.count(solver::Effect::damping, summary.iterations);
+  if (damped) result.counters.add(solver::Effect::damping, summary.iterations);
   result.counters.element_evaluations = system.element_evaluations();
   record_summary(summary, log, record);
   if (result.outcome.solved() && last.q.size() > 0)

@@ -142,7 +142,7 @@ class Motion {
 
   MotionHistory run() {
     history_.counters = system_.counters;
-    if (damped_) history_.counters.count(solver::Effect::damping, 1);
+    if (damped_) history_.counters.add(solver::Effect::damping, 1);
     history_.time = sample_times(transient_);
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;

@@ -75,11 +75,11 @@ constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member
 }
 
 template <class Struct, class Member>
-constexpr Field<Struct, Member> stored(const char* key, Member Struct::*member) {
+constexpr Field<Struct, Member> not_in_summary(const char* key, Member Struct::*member) {
   return {key, member, Presence::stored};
 }
 template <class Struct, class Member>
-constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*member) {
+constexpr Field<Struct, Member> only_in_store(const char* key, Member Struct::*member) {
   return {key, member, Presence::store_only};
 }
 
@@ -120,8 +120,8 @@ inline constexpr None kKeyMember{};
   BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
 #define TRAMMEL_ONE_REQUIRED(_, none, member) required(#member, &S::member)
 #define TRAMMEL_ONE_OPTIONAL(_, none, member) optional(#member, &S::member)
-#define TRAMMEL_ONE_STORED(_, none, member) stored(#member, &S::member)
-#define TRAMMEL_ONE_STORE_ONLY(_, none, member) store_only(#member, &S::member)
+#define TRAMMEL_ONE_STORED(_, none, member) not_in_summary(#member, &S::member)
+#define TRAMMEL_ONE_STORE_ONLY(_, none, member) only_in_store(#member, &S::member)
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a member cannot be in parentheses
 #define TRAMMEL_KEY(Struct, member) \
   template <>                       \
@@ -248,7 +248,7 @@ inline std::uint64_t bits_two_before(const double* numbers, std::size_t i) {
 /// Returns the differences between the bits of each number and of the number two positions earlier.
 /// The lowest bytes of all differences come first, because runs of similar bytes compress best.
 template <class Entry>
-Json packed(const std::vector<Entry>& values) {
+Json pack(const std::vector<Entry>& values) {
   const auto* const numbers = reinterpret_cast<const double*>(values.data());
   const std::size_t count = values.size() * sizeof(Entry) / kBytes;
   std::vector<std::uint8_t> bytes(count * kBytes);
@@ -280,7 +280,7 @@ void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
 template <class Entry>
 Json list_to_json(const std::vector<Entry>& values, Form form) {
   if constexpr (is_packed<Entry>)
-    if (form == Form::store) return packed(values);
+    if (form == Form::store) return pack(values);
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {

@@ -110,8 +110,8 @@ inline Json to_json(const harness::Quantities& quantities, Form form) {
   for (const auto& [name, quantity] : quantities) {
     if (form == Form::store) {
       json.push_back(name);
-      json.push_back(detail::packed(quantity.values));
-      json.push_back(detail::packed(quantity.roundoff));
+      json.push_back(detail::pack(quantity.values));
+      json.push_back(detail::pack(quantity.roundoff));
     } else if (form == Form::text || quantity.values.size() <= kSummaryEntries) {
       json.get_ref<Json::object_t&>().emplace_back(name, to_json(quantity.values, form));
     }

@@ -195,18 +195,18 @@ results::CostStudy describe(const CostStudy& study) {
 
 }  // namespace
 
-ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
+ErrorNorms error_norms(const Observations& computed, const Observations& reference_solution,
                        const Scale& scale) {
   double max = 0;
   std::size_t count = 0;
   double squares = 0, sum = 0, largest = 0;
   for (const std::vector<double>& values : reference_solution)
     largest = std::max(largest, max_abs(values));
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  for (std::size_t i = 0; i < computed.size(); ++i) {
     const std::vector<double> errors =
         reference_solution.at(i).empty()
-            ? found[i]
-            : relative_errors(found[i], reference_solution[i], scale, largest);
+            ? computed[i]
+            : relative_errors(computed[i], reference_solution[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
       max = solver::nan_max(max, size);
@@ -257,13 +257,13 @@ results::CostStudy measure_study(const CostStudy& study, const CostOptions& opti
   if (!is_computed(baseline))
     throw cannot(study.settings[study.baseline], "a baseline", baseline.reason);
   time_settings(study, measured, options, references, done, all);
-  derive_results(measured);
+  derive_ratios_and_front(measured);
   measured.references = references.hashes();
   measured.wall_s = watch.wall_s();
   return measured;
 }
 
-void derive_results(results::CostStudy& measured) {
+void derive_ratios_and_front(results::CostStudy& measured) {
   const CostSetting baseline = measured.settings[measured.baseline];
   std::vector<std::string> titles;
   for (CostSetting& setting : measured.settings) {

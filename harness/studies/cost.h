@@ -12,10 +12,10 @@
 namespace trammel::harness {
 
 /// Returns the norms of the relative errors over all observed entries.
-/// @param reference_solution  as many values as `found`; an empty list for a quantity whose values
-///     are errors themselves.
+/// @param reference_solution  as many values as `computed`; an empty list for a quantity whose
+///     values are errors themselves.
 /// @throws std::runtime_error  if the numbers of values differ, or a scale is zero.
-[[nodiscard]] results::ErrorNorms error_norms(const Observations& found,
+[[nodiscard]] results::ErrorNorms error_norms(const Observations& computed,
                                               const Observations& reference_solution,
                                               const Scale& scale);
 
@@ -44,7 +44,7 @@ struct CostOptions {
 
 /// Computes times relative to the baseline, the Pareto front and the conclusion of a measured
 /// study.
-void derive_results(results::CostStudy& measured);
+void derive_ratios_and_front(results::CostStudy& measured);
 
 /// Returns the section "cost" of results.json from measured studies.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,

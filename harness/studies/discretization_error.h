@@ -24,14 +24,14 @@ struct Companion {
 /// Returns the companion with half the elements or twice the step (or the opposite for
 /// Refine::finer). If the number of elements cannot be halved, the companion is finer. Returns
 /// nothing if the analysis has no mesh or no steps.
-/// @param own  result of `document`, from which the largest step of a step control is read
+/// @param result  result of `document`, from which the largest step of a step control is read
 [[nodiscard]] std::optional<Companion> adjacent_refinement_level(
     const Document& document, ErrorSource source, Refine refine = Refine::coarser,
-    const AnalysisResult* own = nullptr);
+    const AnalysisResult* result = nullptr);
 
 /// Returns true if the results of two levels are the same to the last bit. Then both levels had the
 /// same steps, and their difference says nothing about the error.
-[[nodiscard]] bool is_same_result(const AnalysisResult& own, const AnalysisResult& other);
+[[nodiscard]] bool is_same_result(const AnalysisResult& result, const AnalysisResult& other);
 
 /// Returns the order of convergence, which is the lowest order of all discretized parts of the
 /// case.
@@ -56,17 +56,17 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p times
 /// as wide. If the difference exceeds 10 % of the value, p is at most 2. If the theory is exact, U
 /// is the difference plus round-off. Modes are matched by their shapes if both results have them.
-[[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
+[[nodiscard]] ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 
 /// Returns the relative errors of a solved computation: the sums of the half widths due to mesh and
 /// step, divided by the scales of the values.
 [[nodiscard]] std::vector<results::ErrorEstimate> relative_errors(
-    const Document& document, const AnalysisResult& own,
+    const Document& document, const AnalysisResult& result,
     const std::map<ErrorSource, ErrorBands>& bands);
 /// Computes the companions of a solved computation and returns its estimated errors.
 [[nodiscard]] results::ErrorEstimates estimate_errors(const Document& document,
-                                                      const AnalysisResult& own,
+                                                      const AnalysisResult& result,
                                                       const References& references);
 
 /// Returns warnings about quantities whose estimated error exceeds the limit. Each warning names

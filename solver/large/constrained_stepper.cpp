@@ -409,7 +409,7 @@ class EnergyMomentum final : public ConstrainedStepper {
         energy_(system.energy(start)) {}
 
   void restart() override {}
-  void add_energy(Evidence& evidence) const override {
+  void add_energy_residual(Evidence& evidence) const override {
     const double size = largest_energy_ + throughput_;
     evidence.add(Residual::energy, size > 0 ? largest_gap_ / size : 0);
   }

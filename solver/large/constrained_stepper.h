@@ -100,7 +100,7 @@ class ConstrainedStepper : public Stepper {
   [[nodiscard]] const State& state() const { return from_; }
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
   /// Adds the residual of the energy balance of all steps, if the method conserves energy.
-  virtual void add_energy(Evidence& /*evidence*/) const {}
+  virtual void add_energy_residual(Evidence& /*evidence*/) const {}
 
  protected:
   /// Time scheme, and limits of the corrections of its Newton iteration [-].

@@ -216,18 +216,18 @@ void count_element_evaluations(const large_motion::GeometricallyExactSystem& sys
     if (turns) turning += member.elements;
   }
   counters.element_evaluations += tangents * all;
-  counters.count(Effect::large_displacement, tangents * all);
-  counters.count(Effect::geometric_stiffening, tangents * all);
-  counters.count(Effect::axial_flexibility, tangents * stretching);
-  counters.count(Effect::shear, tangents * shearing);
-  counters.count(Effect::joint_compliance, tangents * spring_ends);
-  counters.count(Effect::platform_flexibility, tangents * plates);
+  counters.add(Effect::large_displacement, tangents * all);
+  counters.add(Effect::geometric_stiffening, tangents * all);
+  counters.add(Effect::axial_flexibility, tangents * stretching);
+  counters.add(Effect::shear, tangents * shearing);
+  counters.add(Effect::joint_compliance, tangents * spring_ends);
+  counters.add(Effect::platform_flexibility, tangents * plates);
   if (moving) {
-    counters.count(Effect::inertia, tangents);
-    counters.count(Effect::rotary_inertia, tangents * turning);
+    counters.add(Effect::inertia, tangents);
+    counters.add(Effect::rotary_inertia, tangents * turning);
   }
-  if (!model.gravity.isZero(0)) counters.count(Effect::gravity, all);
-  if (moving || !model.gravity.isZero(0)) counters.count(Effect::link_mass, heavy);
+  if (!model.gravity.isZero(0)) counters.add(Effect::gravity, all);
+  if (moving || !model.gravity.isZero(0)) counters.add(Effect::link_mass, heavy);
 }
 
 StaticSolution solve_large_statics(const Model& model,

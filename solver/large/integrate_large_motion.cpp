@@ -40,7 +40,7 @@ IntegrationSummary run(const ConstrainedSystem& system,
   static_cast<TransientSummary&>(summary) =
       solver::integrate(*stepper, from_state, options.breakpoints, StepSizes::free);
   state = stepper->state();
-  stepper->add_energy(summary.evidence);
+  stepper->add_energy_residual(summary.evidence);
   summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence,
                                         {Residual::equation_of_motion, Residual::constraints});
   summary.counters.factorizations = stepper->matrix().factorizations();

@@ -161,10 +161,9 @@ struct Bar : LineSpringElement {
   bool lumped = false;
 
   [[nodiscard]] Square mass() const {
-    const double diagonal = total_mass / (lumped ? 2 : 3),
-                 off_diagonal = lumped ? 0 : total_mass / 6;
+    const double diagonal = total_mass / (lumped ? 2 : 3), coupling = lumped ? 0 : total_mass / 6;
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-    return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
+    return (Square() << diagonal * I, coupling * I, coupling * I, diagonal * I).finished();
   }
   /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const {
@@ -179,15 +178,17 @@ struct Bar : LineSpringElement {
 struct CoordinateSpring : ElementSizes<2, 0> {
   double stiffness = 0;  ///< k [N/m or N m/rad]
 
-  [[nodiscard]] Square matrix() const {
+  [[nodiscard]] Square stiffness_matrix() const {
     return (Square() << stiffness, -stiffness, -stiffness, stiffness).finished();
   }
-  [[nodiscard]] double energy(const Coordinates& q) const { return q.dot(matrix() * q) / 2; }
+  [[nodiscard]] double energy(const Coordinates& q) const {
+    return q.dot(stiffness_matrix() * q) / 2;
+  }
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const {
-    return matrix() * (q + tau * v);
+    return stiffness_matrix() * (q + tau * v);
   }
   [[nodiscard]] Square tangent(const Coordinates&, double stiffness_factor, double damping) const {
-    return (stiffness_factor + damping) * matrix();
+    return (stiffness_factor + damping) * stiffness_matrix();
   }
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                                      double damping_over_step) const {

@@ -294,7 +294,7 @@ class LargeElastodynamics {
     result.counters += before;
     count_element_evaluations(system, summary.iterations, true, result.counters);
     if (options_.damping.mass != 0 || options_.damping.stiffness != 0)
-      result.counters.count(Effect::damping, summary.iterations);
+      result.counters.add(Effect::damping, summary.iterations);
   }
 
   /// Adds the results of a state to the samples.

@@ -322,7 +322,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   SparseMatrix C(system.K.rows(), system.K.cols());
   if (is_gyroscopic) {
     C = 2 * speed * gyroscopic_matrix(system);
-    result.counters.count(Effect::gyroscopic, 1);
+    result.counters.add(Effect::gyroscopic, 1);
   }
   const GyroscopicPencil pencil{
       system.K + added, C, system.M, [&](const VectorXd& x) { return steady.restoring_forces(x); },

@@ -41,7 +41,7 @@ class RowBalance {
   [[nodiscard]] double residual_over_load() const;
 
   /// Returns the scales of the rows of the unconstrained coordinates.
-  [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
+  [[nodiscard]] const Eigen::MatrixXd& magnitudes() const { return terms_; }
 
  private:
   /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.

@@ -127,7 +127,7 @@ void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, Stat
 bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   added_ = geometric_stiffness(system_, state.forces);
   const auto elements = std::ssize(system_.mesh.frame) + std::ssize(system_.model.triangles);
-  if (added_.nonZeros() > 0) counters_.count(Effect::geometric_stiffening, elements);
+  if (added_.nonZeros() > 0) counters_.add(Effect::geometric_stiffening, elements);
   if (softening_) added_ += *softening_;
   factorization_.compute(system_.K + added_);
   ++counters_.factorizations;

@@ -57,7 +57,7 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
   solution.evidence.add(Residual::equilibrium, rows.backward_error());
   solution.evidence.add(Residual::load, rows.residual_over_load());
   solution.evidence.add(Residual::recovered_forces,
-                        largest_relative_imbalance(system, state, solution, rows.terms()));
+                        largest_relative_imbalance(system, state, solution, rows.magnitudes()));
 }
 
 }  // namespace

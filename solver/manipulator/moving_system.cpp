@@ -355,9 +355,9 @@ void PathFollower::compute_matrices(SparseMatrix& M, SparseMatrix& C, SparseMatr
   const auto [mass, stiffness] = options_.damping;
   if (is_damped() || options_.gyroscopic)
     C.coeffs() = mass * M.coeffs() + stiffness * moving_.K().coeffs();
-  if (is_damped()) counters_.count(Effect::damping, 1);
+  if (is_damped()) counters_.add(Effect::damping, 1);
   if (!options_.gyroscopic) return;
-  counters_.count(Effect::gyroscopic, 1);
+  counters_.add(Effect::gyroscopic, 1);
   C.coeffs() += moving_.gyroscopic_matrix().coeffs();
   K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs() +
                 mass * moving_.M_T_dot().coeffs() + stiffness * moving_.K_T_dot().coeffs();
@@ -394,7 +394,7 @@ Counters PathFollower::counters() const {
   all.element_evaluations += moving_.evaluations_per_pose();
   all.effects = moving_.start().counters.effects;
   for (std::size_t i = 0; i < kEffectCount; ++i) all.effects[i] += counters_.effects[i];
-  if (!options_.gravity.isZero(0)) all.count(Effect::gravity, 1);
+  if (!options_.gravity.isZero(0)) all.add(Effect::gravity, 1);
   return all;
 }
 

@@ -51,7 +51,7 @@ class EquationMatrices {
   void update(double time);
   [[nodiscard]] bool is_constant() const { return !equation_.update; }
   [[nodiscard]] const std::vector<double>& breakpoints() const { return equation_.breakpoints; }
-  void load(double time, Eigen::VectorXd& f) const;
+  void compute_load(double time, Eigen::VectorXd& f) const;
 
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& C() const { return C_; }

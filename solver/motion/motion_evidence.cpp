@@ -37,7 +37,7 @@ void MotionEvidence::add_product(const SparseMatrix& A, const VectorXd& x) {
 
 void MotionEvidence::add_equilibrium(double time, double load_time, const VectorXd& q,
                                      const VectorXd& v, const VectorXd& A, double step) {
-  matrices_.load(load_time, f_);
+  matrices_.compute_load(load_time, f_);
   matrices_.update(time);
   if (scale_.size() == 0) set_coordinate_scale(step);
   sum_ = -f_;

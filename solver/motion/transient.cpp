@@ -227,7 +227,7 @@ Outcome LinearStepper::start() {
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
   matrices_.update(now_->time);
-  matrices_.load(now_->time, now_->f);
+  matrices_.compute_load(now_->time, now_->f);
   now_->Cv.noalias() = matrices_.C() * now_->v;
   now_->Kq.noalias() = matrices_.K() * now_->q;
   residual_ = now_->f - now_->Cv - now_->Kq;
@@ -270,7 +270,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
 /// instantly. The work that is not stored as strain energy is dissipated.
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
-  matrices_.load(now_->time + h / 2, next_->f);
+  matrices_.compute_load(now_->time + h / 2, next_->f);
   massless_.equilibrate(*now_, (next_->f - now_->f) / (h / 2));
   now_->Cv.noalias() = matrices_.C() * now_->v;
   now_->Kq.noalias() = matrices_.K() * now_->q;
@@ -292,7 +292,7 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   for (int i = 0; i <= kPoints; ++i) {
     const double t = i == kPoints ? std::nextafter(end, begin)
                                   : begin + (end - begin) * static_cast<double>(i) / kPoints;
-    matrices_.load(t, next_->f);
+    matrices_.compute_load(t, next_->f);
     start_factor_->solve(next_->f, correction_);
     ++counters_.solves;
     next_->Ma.noalias() = matrices_.M() * correction_;
@@ -328,7 +328,7 @@ StepReport LinearStepper::attempt(const Step& step) {
   if (now_->A_step != h) rescale_to_new_step(h / now_->A_step, now_->a, now_->A);
   now_->A_step = h;
   matrices_.update(step.end);
-  matrices_.load(load_time(step), next_->f);
+  matrices_.compute_load(load_time(step), next_->f);
   SparseLdlt* factor = step_factor(step);
   StepReport report;
   if (!factor) {

@@ -56,7 +56,7 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
       if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass)
         return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
     }
-    matrices.load(time, f);
+    matrices.compute_load(time, f);
     solve_refined(matrices.K(), factor, f, q_then, counters);
     v += (kSlope[static_cast<std::size_t>(i)] / gap) * q_then;
   }
