@@ -23,9 +23,9 @@ namespace trammel::harness {
 [[nodiscard]] Json parse_cbor(const std::string& bytes);
 
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
-/// @param max_depth  level of nesting beyond which values are on one line, objects one level
-/// earlier
-[[nodiscard]] std::string format_json(const Json& json, std::size_t max_depth = 1000);
+/// @param max_multiline_depth  level of nesting beyond which values are on one line, objects one
+///   level earlier
+[[nodiscard]] std::string format_json(const Json& json, std::size_t max_multiline_depth = 1000);
 
 /// Writes the complete file or nothing: the text is written into a temporary file in the same
 /// folder, which is then renamed. Pipes and devices are written directly.

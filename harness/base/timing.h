@@ -33,7 +33,7 @@ struct RelativeTime {
 
 /// Returns the median ratio of two times. Ratios are computed for each repeat, because both times
 /// of a repeat were measured under the same machine load.
-/// @param first, stride  selects the repeats first, first + step, ...; by default all repeats
+/// @param first, stride  selects the repeats first, first + stride, ...; by default all repeats
 [[nodiscard]] RelativeTime time_ratio(const std::vector<double>& times,
                                       const std::vector<double>& baseline, std::size_t first = 0,
                                       std::size_t stride = 1);

@@ -11,7 +11,7 @@ namespace trammel::harness {
 
 /// Returns the kind of the analysis, such as "modes". For a study, this is the repeated analysis.
 [[nodiscard]] std::string inner_analysis_kind(const Document& document);
-/// Returns the JSON pointer of the analysis that `discretized_analysis` names, such as
+/// Returns the JSON pointer of the analysis that `inner_analysis_kind` names, such as
 /// "/analysis/modes" or, for a study, "/analysis/study/analysis/modes".
 [[nodiscard]] std::string analysis_pointer(const Document& document);
 

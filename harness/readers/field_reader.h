@@ -132,7 +132,7 @@ class FieldReader {
   const SymbolTable* symbols_;
 };
 
-/// Reads a part of a model, such as a spring. Its `fields` function lists the keys.
+/// Reads a part of a model, such as a spring. Its `visit_fields` function lists the keys.
 template <class T>
 [[nodiscard]] T read_part(const JsonView& place, const SymbolTable* symbols = nullptr) {
   T part{};

@@ -111,7 +111,7 @@ Figure cost_figure(const CostStudy& study) {
   PlotScript script;
   const Interval errors = errors_of(study), times = times_of(study);
   const auto outside =
-      static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::without_result));
+      static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::has_no_result));
   script.log_axis("x", errors.low, errors.high);
   script.log_axis("y", times.low, times.high);
   const double high = std::pow(10, std::ceil(std::log10(errors.high) - 1e-9));

@@ -216,8 +216,8 @@ class ElementGroup {
     return sum;
   }
 
-  /// Adds element forces between two states, as `forces` does for one state. Their work from the
-  /// first to the second state equals the change of the energy exactly.
+  /// Adds element forces between two states, as `add_forces` does for one state. Their work from
+  /// the first to the second state equals the change of the energy exactly.
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
                                 double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
