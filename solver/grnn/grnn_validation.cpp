@@ -43,15 +43,15 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   return fold;
 }
 
-std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
-  require(train >= 1 && train <= samples,
+std::vector<bool> training_mask(Index samples, Index count, Split split, std::uint64_t seed) {
+  require(count >= 1 && count <= samples,
           "the number of training samples must be between 1 and the number of samples");
   const std::vector<Index> order = sample_order(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
-  for (Index k = 0; k < train; ++k) {
-    // The k-th interleaved training sample is in the middle of the k-th of `train` equal intervals
+  for (Index k = 0; k < count; ++k) {
+    // The k-th interleaved training sample is in the middle of the k-th of `count` equal intervals
     // of the sample indices.
-    const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
+    const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * count) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
   return trains;

@@ -133,13 +133,12 @@ class ElementGroup {
       for (const Index k : coordinate_indices(e)) block.push_back(k < free ? k : -1);
       if constexpr (R > 0) {
         for (Index r = 0; r < R; ++r) block.push_back(free + first_constraint_row(e) + r);
-        const std::span<const Index> joined(coordinate_indices(e).data(),
-                                            where_[to_size(e)].size());
+        const std::span coupled(coordinate_indices(e).data(), where_[to_size(e)].size());
         Element& own = elements_[to_size(e)];
         system.compliance.segment<R>(first_constraint_row(e)) = own.row_compliance();
         double lever = 0;
         if constexpr (requires { own.offset; }) lever = own.offset.norm();
-        const RowScales row = scales.row_scales(joined, lever);
+        const RowScales row = scales.row_scales(coupled, lever);
         system.unit.segment<R>(first_constraint_row(e)).setConstant(row.unit);
         if constexpr (requires { own.stiffness_scale; }) {
           own.stiffness_scale = row.stiffness;

@@ -69,13 +69,13 @@ class KktMatrix {
     const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
     const Rows least = penalty.unaryExpr([](double x) { return x > 0 ? 1e-11 / x : 0; });
     const Rows compliance = c.cwiseProduct(E).cwiseMax(least);
-    Eigen::Matrix<double, kSize, kSize> all(n + m, n + m);
+    Eigen::Matrix<double, kSize, kSize> terms(n + m, n + m);
     const Eigen::Matrix<double, N, M> penalized = D.transpose() * penalty.asDiagonal();
-    all.template topLeftCorner<N, N>(n, n) = S + penalized.lazyProduct(G);
-    all.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
-    all.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
-    all.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
-    add(block, all);
+    terms.template topLeftCorner<N, N>(n, n) = S + penalized.lazyProduct(G);
+    terms.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
+    terms.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
+    terms.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
+    add(block, terms);
     multiplier_scaling_.segment(first_row_[static_cast<std::size_t>(block)], m) =
         penalty.cwiseQuotient(E);
   }

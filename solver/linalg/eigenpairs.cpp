@@ -476,13 +476,13 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
                               Factorization&& spent, double shift_above) {
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
-  const auto count_below = [&](double t) { return factorization.inertia(shifted_matrix(A, B, t)); };
+  const auto below = [&](double t) { return factorization.sturm_count(shifted_matrix(A, B, t)); };
   if (found.size() == 0) {  // the count must be zero for any large shift
-    const std::optional<Index> counted = count_below(shift_above_all(A, B));
+    const std::optional<Index> counted = below(shift_above_all(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
-  if (shift_above > found[found.size() - 1] && count_below(shift_above) == found.size()) return 0;
-  return eigenvalue_count_error(found, count_below);
+  if (shift_above > found[found.size() - 1] && below(shift_above) == found.size()) return 0;
+  return eigenvalue_count_error(found, below);
 }
 
 Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {

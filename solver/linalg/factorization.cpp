@@ -198,7 +198,7 @@ void Factorization::compute(const SparseMatrix& A) {
   exists_ = ldlt_.factorize(scaled);
 }
 
-std::optional<Index> Factorization::inertia(const SparseMatrix& A) {
+std::optional<Index> Factorization::sturm_count(const SparseMatrix& A) {
   compute(A);
   return is_reliable() ? std::optional(negative_pivots()) : std::nullopt;
 }

@@ -75,7 +75,7 @@ class Factorization {
   [[nodiscard]] Index negative_pivots() const { return ldlt_.negative_pivots(); }
   /// Factors A and returns the number of its negative eigenvalues, or an empty value if the count
   /// is unreliable.
-  std::optional<Index> inertia(const SparseMatrix& A);
+  std::optional<Index> sturm_count(const SparseMatrix& A);
   /// Returns true if the signs of the pivots are reliable. An indefinite matrix without row
   /// exchanges has lost its digits if |L| exceeds about 1e8.
   [[nodiscard]] bool is_reliable() const { return exists_ && ldlt_.element_growth() < 1e8; }

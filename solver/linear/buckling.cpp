@@ -45,7 +45,7 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
     for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot is near zero
       counted = share * t;
       ++counters.factorizations;
-      if (const std::optional<Index> count = factorization.inertia(shifted_matrix(K, B, counted)))
+      if (const auto count = factorization.sturm_count(shifted_matrix(K, B, counted)))
         return *count > 0;
     }
     return {};

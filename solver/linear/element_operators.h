@@ -218,9 +218,9 @@ class Projection {
 
   /// Returns the sum with both triangles stored.
   [[nodiscard]] SparseMatrix build() const {
-    SparseMatrix lower(T_.cols(), T_.cols());
-    lower.setFromTriplets(entries_.begin(), entries_.end());
-    return lower.selfadjointView<Eigen::Lower>();
+    SparseMatrix triangle(T_.cols(), T_.cols());
+    triangle.setFromTriplets(entries_.begin(), entries_.end());
+    return triangle.selfadjointView<Eigen::Lower>();
   }
 
  private:

@@ -189,7 +189,7 @@ ModalSolution solve_prestressed_modes(const System& system, const ModesOptions& 
 
 std::optional<Index> sturm_count(const System& system, double frequency) {
   const double w = 2 * std::numbers::pi * frequency;
-  return Factorization().inertia(system.K - w * w * system.M);
+  return Factorization().sturm_count(system.K - w * w * system.M);
 }
 
 }  // namespace trammel::solver

@@ -277,8 +277,8 @@ double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& m
         w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
   const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
-  const auto counted = Factorization().inertia(shifted_matrix(pencil.K, pencil.M, 1e4 * last));
-  return counted ? std::abs(static_cast<double>(*counted - w.size())) : kNaN;
+  const auto count = Factorization().sturm_count(shifted_matrix(pencil.K, pencil.M, 1e4 * last));
+  return count ? std::abs(static_cast<double>(*count - w.size())) : kNaN;
 }
 
 GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, bool stable,
