@@ -213,7 +213,8 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
                                              acceleration_slope(h) * correction_roundoff(h));
     work_ = A1_ - A0_;
     if (options_.adaptive)
-      report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
+      report.error =
+          scheme_.error_constant * h * h * scaled_norm(work_) / options_.adaptive->relative;
     // A motion straight through a singular position changes the orientation for steps of any size.
     // A change is therefore accepted in steps of at most this fraction of the nominal step.
     constexpr double kShortest = 1e-3;
@@ -238,7 +239,7 @@ void ConstrainedStepper::accept(const Step& step, bool check_motion, Evidence& e
     evidence.add(Residual::equation_of_motion, relation_residual_);
     evidence.add(Residual::equation_of_motion, residuals_.motion_residual(from_, force_residual_));
   }
-  if (options_.sample_times.empty()) show();
+  if (options_.sample_times.empty()) output_state();
 }
 
 void ConstrainedStepper::advance() {
@@ -293,7 +294,7 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
     if (!velocity_correction_.allFinite() || !position_correction_.allFinite()) return report;
     report.iterations = i + 1;
     convergence.record(scaled_norm(velocity_correction_.head(n)),
-                       size(position_correction_.head(n) - velocity_correction_.head(n)));
+                       scaled_norm(position_correction_.head(n) - velocity_correction_.head(n)));
     report.residual = convergence.last();
     if (has_converged(h, convergence)) {
       report.status = Status::solved;
@@ -359,7 +360,7 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
   // estimate includes only one rounding of each force.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
-      scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
+      scheme_.acceleration_share * scheme_.relations.beta * h * h * scaled_norm(A1_);
   const double position = scaled_norm(to_.q);
   const double limit =
       std::max(scheme_.resolution * acceleration, scheme_.position_resolution * position);
@@ -380,7 +381,7 @@ double ConstrainedStepper::correction_roundoff(double h) const {
       (system_.row_compliance().array() == 0).select(scaled_norm(to_.q) * system_.row_units(), 0);
   errors = kEps * errors.cwiseProduct(start_vectors(n + m, 1));
   matrix_.solve(errors);
-  return size(errors.head(n));
+  return scaled_norm(errors.head(n));
 }
 
 namespace {

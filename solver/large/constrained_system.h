@@ -94,7 +94,7 @@ class ConstrainedSystem {
 }
 
 inline VectorXd ConstrainedSystem::row_units() const {
-  return VectorXd::Constant(constraints(), length_scale(*this));
+  return VectorXd::Constant(constraint_count(), length_scale(*this));
 }
 
 /// Returns the root mean square of a change of coordinates relative to their scale [-].

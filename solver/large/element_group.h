@@ -241,7 +241,7 @@ class ElementGroup {
                                  double tau, const TangentCoefficients& coefficients,
                                  KktMatrix& matrix) const {
     if constexpr (R == 0) {
-      tangent(midpoint, tau, coefficients, matrix);
+      add_tangent(midpoint, tau, coefficients, matrix);
     } else {
       for (Index e = 0; e < size(); ++e) {
         const Gradient G = evaluate_rows(e, gather<N>(to.q, coordinate_indices(e)), to.t).gradient;

@@ -52,7 +52,7 @@ bool Equilibrium::factor_if_moved(const State& state, double relative) {
                     (state.lambda - factored_.lambda).cwiseQuotient(force_unit_).norm() <=
                         relative * state.lambda.cwiseQuotient(force_unit_).norm() &&
                     std::abs(state.load - factored_.load) <= relative * std::abs(state.load);
-  return same || factor(state);
+  return same || factorize_tangent(state);
 }
 
 void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual) {
@@ -175,7 +175,7 @@ NewtonResult Equilibrium::solve(State& state, double load_factor, const LoadCont
   for (int i = 0; i < options_.max_iterations; ++i) {
     if (!factor_if_moved(state, options_.same_state))
       return fail(Status::singular, "the tangent matrix is singular");
-    correction(state, step_, result);
+    newton_correction(state, step_, result);
     if (control) {
       load_factor_sensitivity(state, load_step_);
       const double change = control(step_, load_step_);

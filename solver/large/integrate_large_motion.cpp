@@ -161,7 +161,7 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
     // Exclude the first state from the member balance. If the step does not resolve all vibrations,
     // its accelerations are those of an implicit step and do not satisfy the equation of motion.
-    if (at.t > start && !conserves) balance.add(system, at);
+    if (at.t > start && !conserves) balance.add_state(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);
     // The multipliers of an energy-momentum step are mean values, which oscillate about the exact

@@ -282,7 +282,7 @@ class LargeElastodynamics {
       integration.sample_times = even_times(integration.start, integration.end, integration.step);
     const ConstrainedSystem& equations = system;
     const auto summary = integrate(equations, state, integration, [&](const State& now) {
-      if (now.t > options_.time.start) balance_.add(system, now);
+      if (now.t > options_.time.start) balance_.add_state(system, now);
       add_sample(system, now, start_, at_time(now.t));
     });
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;

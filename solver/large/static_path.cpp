@@ -286,7 +286,7 @@ class PathFollower {
 
   void add_evidence(const State& state) {
     path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(state));
-    balance_.add(system_, state);
+    balance_.add_state(system_, state);
   }
 
   void append(PathPoint point) {

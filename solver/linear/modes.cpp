@@ -32,8 +32,7 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
   const VectorXd diagonal = system.K.diagonal(), squared_length = summed_squared_lengths(system);
-  const double largest =
-      diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
+  const auto largest = diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
   if (!(largest > 0)) return -1;
   for (Index i = 0; i < diagonal.size(); ++i)
     shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest * squared_length[i]);

@@ -170,7 +170,7 @@ void add_scalars(const System& system, std::vector<MovingElement>& elements) {
 }  // namespace
 
 Vector2d MovingElement::axis_direction(const NominalMotion& nominal) const {
-  const double angle = motion(nominal).angle;
+  const double angle = part_motion(nominal).angle;
   return angle == 0 ? axis : rotated(axis, angle);
 }
 

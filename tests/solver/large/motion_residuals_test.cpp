@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(wrong_member_forces_are_out_of_balance) {
   State& state = path.points.back().state;
   const auto residual = [&] {
     MemberBalance balance;
-    balance.add(system, state);
+    balance.add_state(system, state);
     return balance.residual();
   };
   state.lambda[0] *= 1 + 1e-6;
