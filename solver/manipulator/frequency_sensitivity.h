@@ -62,7 +62,7 @@ template <class Part>
 /// Returns the property of a link to which the parameter refers, or null.
 template <class T>
 [[nodiscard]] T* link_property(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
-  return kind == DesignParameter::Kind::width ? &link.width : number(link, kind);
+  return kind == DesignParameter::Kind::width ? &link.width : property(link, kind);
 }
 
 }  // namespace detail

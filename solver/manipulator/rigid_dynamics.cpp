@@ -184,7 +184,7 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
   terms.outcome = state_outcome(posture, m.geometry, pose);
   if (!terms.outcome.solved()) return terms;
   terms.q = coordinates(pose, posture);
-  terms.q_dot = velocities<double>(m, terms.q, velocity);
+  terms.q_dot = joint_velocities<double>(m, terms.q, velocity);
   const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
   terms.M.setZero();
   terms.C.setZero();
@@ -227,8 +227,8 @@ InverseDynamics inverse_dynamics(const RigidManipulator& m, const TrajectoryPoin
   if (!result.outcome.solved()) return result;
   result.q = terms.q;
   result.q_dot = terms.q_dot;
-  result.q_ddot = rates_of(velocities<Dual>(m, with_rates(terms.q, terms.q_dot),
-                                            with_rates(motion.velocity, motion.acceleration)));
+  result.q_ddot = rates_of(joint_velocities<Dual>(
+      m, with_rates(terms.q, terms.q_dot), with_rates(motion.velocity, motion.acceleration)));
   result.torque = terms.Mh * result.q_ddot.head<3>() + terms.Ch * result.q_dot.head<3>() +
                   terms.Nh - terms.W.bottomRows<3>().transpose() * wrench;
   result.kinetic_energy = result.potential_energy = 0;
