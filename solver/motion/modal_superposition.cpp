@@ -304,7 +304,7 @@ RegularizedMass::RegularizedMass(const System& system) : system_(system) {
   regular_.compute(sum);
 }
 
-VectorXd RegularizedMass::acceleration_of(const VectorXd& f) const {
+VectorXd RegularizedMass::solve(const VectorXd& f) const {
   VectorXd a = regular_.solve(f);
   for (int pass = 0; pass < 2; ++pass) a += regular_.solve(f - system_.M * a);
   return a;
@@ -316,7 +316,7 @@ LateStrain::LateStrain(const System& system)
 void LateStrain::set_loads(const VectorXd& q, const Eigen::Vector2d& factors,
                            ElasticState& elastic) const {
   const VectorXd loads = factors[0] * (system_.f - weight_) + factors[1] * weight_;
-  elastic.acceleration = system_.T * mass_.acceleration_of(loads - system_.K * q);
+  elastic.acceleration = system_.T * mass_.solve(loads - system_.K * q);
   elastic.load_factor = factors[0];
   elastic.weight_factor = factors[1];
 }

@@ -106,7 +106,7 @@ class RegularizedMass {
  public:
   /// @pre `system` outlives this object.
   explicit RegularizedMass(const System& system);
-  [[nodiscard]] Eigen::VectorXd acceleration_of(const Eigen::VectorXd& f) const;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& f) const;
 
  private:
   const System& system_;
