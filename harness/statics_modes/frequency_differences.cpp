@@ -44,7 +44,7 @@ void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter,
       meet(length ? &design.geometry.distal[i]
                   : solver::detail::link_property(design.distal[i], kind));
   }
-  if (parameter.platform) meet(solver::detail::number(design.platform, kind));
+  if (parameter.platform) meet(solver::detail::property(design.platform, kind));
 }
 
 double side(const std::array<Vector2d, 3>& triangle) {
