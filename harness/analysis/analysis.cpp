@@ -130,7 +130,7 @@ AnalysisResult analyze(const Document& document, const References& references,
   CaseModel case_model = read_case_model(document);
   if (kind.needs_manipulator && !case_model.manipulator)
     throw place.error("this analysis requires a model with 'manipulator'");
-  return rethrow_as_input(document, [&] {
+  return rethrow_as_input_error(document, [&] {
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;

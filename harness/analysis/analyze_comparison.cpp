@@ -25,7 +25,8 @@ StepResult analyze_model_probabilities(const Document& document, const Reference
                                        Recorder& record) {
   const JsonView id = JsonView(document)["analysis"]["model-probabilities"]["reference"];
   const references::Reference& stored = references.get(id);
-  if (stored.probabilities.empty()) throw id.error("expected a reference that states the 'probabilities' of interpretations of the publication");
+  if (stored.probabilities.empty())
+    throw id.error("expected a reference with 'probabilities' of interpretations of a publication");
   StepResult result;
   result.model_probabilities =
       results::from_json<results::ModelProbabilities>(Json::parse(stored.probabilities));

@@ -120,8 +120,7 @@ std::vector<Level> study_levels(const Document& document) {
   const bool along = study.get("trajectory", false);
   if (along == study.has("values"))
     throw study.error("expected exactly one of 'values' and 'trajectory'");
-  std::vector<Level> found =
-      along ? trajectory_levels(document, study) : sweep_levels(document, study);
+  auto found = along ? trajectory_levels(document, study) : sweep_levels(document, study);
   for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
   return found;
 }

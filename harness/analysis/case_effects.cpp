@@ -38,7 +38,7 @@ Effects stated_effects(const Document& document, const EffectScope& scope) {
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
-    stated = scope.without(stated, effect_key.effect);
+    stated = scope.remove_with_dependents(stated, effect_key.effect);
   }
   return stated;
 }
@@ -84,9 +84,9 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
         throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
                           std::string(solver::name_of(effect)) + "', which requires it");
     }
-  if (!(scope.completed(chosen) == chosen))
+  if (!(scope.with_implied_effects(chosen) == chosen))
     throw names.error(
-        "'large-displacement' with 'inertia' requires 'gyroscopic', which they include");
+        "'large-displacement' with 'inertia' includes 'gyroscopic'; expected it in the list");
   return chosen;
 }
 

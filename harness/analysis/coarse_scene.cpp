@@ -46,13 +46,15 @@ double estimated_work(const solver::Counters& counters, double unknowns) {
          kElement * static_cast<double>(counters.element_evaluations);
 }
 
-double CoarseScene::change(Effects all, Effects effects, const std::set<std::size_t>& steps) {
-  const auto full = along(all, steps), other = along(effects, steps);
+double CoarseScene::max_result_change(Effects all_effects, Effects effects,
+                                      const std::set<std::size_t>& steps) {
+  const auto full = results_at_steps(all_effects, steps), other = results_at_steps(effects, steps);
   if (!full || !other) return std::numeric_limits<double>::infinity();
   return max_change(changes_between(*full, *other, size_)).value;
 }
 
-std::optional<Quantities> CoarseScene::along(Effects effects, const std::set<std::size_t>& steps) {
+std::optional<Quantities> CoarseScene::results_at_steps(Effects effects,
+                                                        const std::set<std::size_t>& steps) {
   Quantities all;
   for (const std::size_t step : steps) {
     const auto& result = at(effects, step);
@@ -69,11 +71,12 @@ const std::optional<Quantities>& CoarseScene::at(Effects effects, std::size_t st
   const auto is_its = [&](const auto& run) { return run.first == effects; };
   auto& by_step = find_or_add(runs_, is_its, {effects, {}}).second;
   const auto known = by_step.find(step);
-  return known != by_step.end() ? known->second
-                                : by_step.emplace(step, compute(effects, step)).first->second;
+  return known != by_step.end()
+             ? known->second
+             : by_step.emplace(step, compute_at_step(effects, step)).first->second;
 }
 
-std::optional<Quantities> CoarseScene::compute(Effects effects, std::size_t step) {
+std::optional<Quantities> CoarseScene::compute_at_step(Effects effects, std::size_t step) {
   Recorder record;
   scene_.effects = effects;
   try {

@@ -40,13 +40,13 @@ class CoarseScene {
 
   /// Returns the largest relative change of the results at these steps of the path if the effects
   /// `all` are replaced by `effects`. The change is infinite without a solution.
-  [[nodiscard]] double change(solver::Effects all, solver::Effects effects,
-                              const std::set<std::size_t>& steps);
+  [[nodiscard]] double max_result_change(solver::Effects all_effects, solver::Effects effects,
+                                         const std::set<std::size_t>& steps);
   /// Returns the results at these steps of the path; empty if one of the steps has no solution.
-  [[nodiscard]] std::optional<Quantities> along(solver::Effects effects,
-                                                const std::set<std::size_t>& steps);
+  [[nodiscard]] std::optional<Quantities> results_at_steps(solver::Effects effects,
+                                                           const std::set<std::size_t>& steps);
 
-  [[nodiscard]] const ModelScales& size() const { return size_; }
+  [[nodiscard]] const ModelScales& model_scales() const { return size_; }
   [[nodiscard]] const solver::Model& model() const { return model_; }
   solver::Outcome outcome;  ///< last outcome without a solution
   solver::Counters counters;
@@ -55,7 +55,7 @@ class CoarseScene {
   using ByStep = std::map<std::size_t, std::optional<Quantities>>;
 
   const std::optional<Quantities>& at(solver::Effects effects, std::size_t step);
-  std::optional<Quantities> compute(solver::Effects effects, std::size_t step);
+  std::optional<Quantities> compute_at_step(solver::Effects effects, std::size_t step);
 
   const AnalysisKind& kind_;
   const JsonView& analysis_;

@@ -71,7 +71,7 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
   return scale;
 }
 
-EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale) {
+EffectNumbers dimensionless_numbers(const solver::Model& model, const ResponseScale& scale) {
   /// Ratios of the change of the results to the dimensionless numbers of platform and joints. These
   /// ratios bound the changes in nearly all random scenes of the tests.
   constexpr double kOfPlatform = 17, kOfJoint = 3;

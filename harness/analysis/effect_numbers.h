@@ -46,6 +46,7 @@ using EffectNumbers = std::array<EffectNumber, solver::kEffectCount>;
 /// diameter of the frame [m]. Each number is the largest over the members.
 ///   Source: Timoshenko, Philosophical Magazine 41 (1921), for shear and rotary inertia. The others
 /// are ratios of stiffnesses in series or in parallel.
-[[nodiscard]] EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale);
+[[nodiscard]] EffectNumbers dimensionless_numbers(const solver::Model& model,
+                                                  const ResponseScale& scale);
 
 }  // namespace trammel::harness

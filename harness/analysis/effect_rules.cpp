@@ -190,16 +190,16 @@ EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
 
 }  // namespace
 
-Effects EffectScope::completed(Effects set) const {
+Effects EffectScope::with_implied_effects(Effects set) const {
   const bool contains = applicable.has(Effect::gyroscopic) && set.has(Effect::large_displacement) &&
                         set.has(Effect::inertia);
   return contains ? set.with(Effect::gyroscopic) : set;
 }
 
-Effects EffectScope::without(Effects set, Effect effect) const {
+Effects EffectScope::remove_with_dependents(Effects set, Effect effect) const {
   set = set.without(effect);
   for (const Effect dependent : dependents[static_cast<std::size_t>(effect)].list())
-    if (set.has(dependent)) set = without(set, dependent);
+    if (set.has(dependent)) set = remove_with_dependents(set, dependent);
   return set;
 }
 

@@ -28,9 +28,10 @@ struct EffectScope {
 
   /// Adds gyroscopic forces to a set of effects with large displacement and inertia, which imply
   /// gyroscopic forces.
-  [[nodiscard]] solver::Effects completed(solver::Effects set) const;
+  [[nodiscard]] solver::Effects with_implied_effects(solver::Effects set) const;
   /// Returns a set of effects without `effect` and without the effects that depend on it.
-  [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
+  [[nodiscard]] solver::Effects remove_with_dependents(solver::Effects set,
+                                                       solver::Effect effect) const;
 };
 
 /// Rules of one analysis for the selection of effects. The parameter `analysis` is the JSON object

@@ -51,7 +51,7 @@ class Selector {
     if (name == "modes" && analysis_.has("rotating")) select_in_rotation();
     if (name == "elastodynamics" && selection_.outcome.solved()) select_in_motion();
     if (!selection_.outcome.solved()) selection_.chosen = scope_.applicable;
-    selection_.chosen = scope_.completed(selection_.chosen);
+    selection_.chosen = scope_.with_implied_effects(selection_.chosen);
     if (selection_.chosen == scope_.applicable) selection_.change = 0;
     return selection_;
   }
@@ -61,7 +61,7 @@ class Selector {
 
   /// Returns the chosen effects without one effect and without its dependents.
   [[nodiscard]] Effects without(Effect effect) const {
-    return scope_.without(selection_.chosen, effect);
+    return scope_.remove_with_dependents(selection_.chosen, effect);
   }
 
   [[nodiscard]] bool can_leave_out(Effect effect) const {
@@ -86,7 +86,7 @@ class Selector {
   /// stiffening of a frame at rest) precede cheap ones. Each group is in ascending order of the
   /// estimated change.
   void apply_numbers(const ResponseScale& scale) {
-    const EffectNumbers numbers = effect_numbers(model_, scale);
+    const EffectNumbers numbers = dimensionless_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
       // A suddenly applied load excites every mode, including those of stiff parts.
       const bool strikes = from_rest_ && effect != Effect::shear;
@@ -134,8 +134,8 @@ class Selector {
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
     const Effects second = without(Effect::large_displacement);
     std::set<std::size_t> every;
-    for (std::size_t step = 0; step < scene_.steps(); ++step) every.insert(step);
-    const auto overview = single.along(linear, every);
+    for (std::size_t step = 0; step < scene_.path_point_count(); ++step) every.insert(step);
+    const auto overview = single.results_at_steps(linear, every);
     if (!overview) {
       selection_.outcome = single.outcome;
     } else {
@@ -166,11 +166,12 @@ class Selector {
   double change_along(CoarseScene& coarse, Effects all, Effects effects,
                       const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
     for (;;) {
-      const double change = coarse.change(all, effects, steps);
+      const double change = coarse.max_result_change(all, effects, steps);
       if (!(change <= kForCoarseModel * rest()) || steps == every) return change;
-      const auto full = coarse.along(all, every), other = coarse.along(effects, every);
+      const auto full = coarse.results_at_steps(all, every),
+                 other = coarse.results_at_steps(effects, every);
       if (!full || !other) return kInfinite;
-      const LargestDifference worst = max_change(changes_between(*full, *other, coarse.size()));
+      const auto worst = max_change(changes_between(*full, *other, coarse.model_scales()));
       if (worst.value <= kForCoarseModel * rest() || !steps.insert(worst.index).second)
         return std::max(change, worst.value);
     }
@@ -232,7 +233,7 @@ class Selector {
     if (unknown_count(coarse.model()) > kPays * unknown_count(model_)) return;
     for (const Effect effect : {Effect::gyroscopic, Effect::geometric_stiffening}) {
       if (!can_leave_out(effect)) continue;
-      const double change = coarse.change(selection_.chosen, without(effect), {0});
+      const double change = coarse.max_result_change(selection_.chosen, without(effect), {0});
       if (try_without(effect, selection_.chosen, change, kForCoarseModel, true))
         selection_.change += change;
     }
@@ -246,12 +247,11 @@ class Selector {
           "automatic effects require a constant load; a pulse may fall between the times at which "
           "they are measured");
     CaseModel coarse = coarsen_scene(scene_, 1);
-    coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
+    coarse.effects = scope_.remove_with_dependents(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
     options_ = read_elastodynamics_options(analysis_, coarse);
     // Up to three of the four modes are rigid-body modes.
-    const solver::ModalSolution modes =
-        solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});
+    const auto modes = solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});
     add_cost(modes.counters, coarse_model_);
     selection_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return {};
@@ -341,9 +341,10 @@ class Selector {
   void measure_without(CoarseScene& coarse, Effect effect) {
     if (!can_leave_out(effect)) return;
     const auto linear = [&](Effects set) {
-      return scope_.without(set, Effect::large_displacement);
+      return scope_.remove_with_dependents(set, Effect::large_displacement);
     };
-    const double change = coarse.change(linear(selection_.chosen), linear(without(effect)), {0});
+    const double change =
+        coarse.max_result_change(linear(selection_.chosen), linear(without(effect)), {0});
     if (try_without(effect, selection_.chosen, change, kForCoarseModel, true))
       selection_.change += change;
   }

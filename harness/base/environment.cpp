@@ -31,7 +31,7 @@ std::string line_of(const char* file, const std::string& key) {
 
 }  // namespace
 
-Json environment() {
+Json build_and_machine_info() {
   Json libraries = {
       {"Eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},

@@ -8,7 +8,7 @@
 namespace trammel::harness {
 
 /// Returns the version, commit, date, compiler and flags, libraries and processor of this program.
-[[nodiscard]] Json environment();
+[[nodiscard]] Json build_and_machine_info();
 
 /// Returns the folder that contains cases/ and references/: $TRAMMEL_HOME if set, else the source
 /// tree of the build, else share/trammel of the installation.

@@ -14,11 +14,11 @@ bool contains(const Range& range, const Value& value) {
   return std::ranges::find(range, value) != std::ranges::end(range);
 }
 
-/// Returns the first item that satisfies the predicate `is`. If there is none, appends `fresh` and
-/// returns it.
+/// Returns the first item that satisfies the predicate `is_match`. If there is none, appends
+/// `fresh` and returns it.
 template <typename Item, typename Is>
-Item& find_or_add(std::vector<Item>& items, Is is, Item fresh) {
-  const auto found = std::ranges::find_if(items, std::move(is));
+Item& find_or_add(std::vector<Item>& items, Is is_match, Item fresh) {
+  const auto found = std::ranges::find_if(items, std::move(is_match));
   return found == items.end() ? items.emplace_back(std::move(fresh)) : *found;
 }
 

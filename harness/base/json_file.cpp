@@ -229,9 +229,9 @@ bool is_written_in_place(std::filesystem::path file) {
 
 }  // namespace
 
-std::string format_json(const Json& json, std::size_t deepest) {
+std::string format_json(const Json& json, std::size_t max_multiline_depth) {
   std::string text;
-  append_json(json, 0, deepest, text);
+  append_json(json, 0, max_multiline_depth, text);
   return text + "\n";
 }
 

@@ -25,7 +25,7 @@ namespace trammel::harness {
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
 /// @param deepest  nesting level beyond which a value is written on one line. An object is written
 ///   on one line from one level earlier.
-[[nodiscard]] std::string format_json(const Json& json, std::size_t deepest = 1000);
+[[nodiscard]] std::string format_json(const Json& json, std::size_t max_multiline_depth = 1000);
 
 /// Writes the complete file or nothing: the text is written into a temporary file in the same
 /// folder, which is then renamed. Pipes and devices are written directly.

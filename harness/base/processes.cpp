@@ -403,14 +403,14 @@ void kill_descendants() {
   }
 }
 
-std::size_t folder_bytes(const fs::path& folder, std::size_t enough) {
+std::size_t folder_bytes(const fs::path& folder, std::size_t stop_above) {
   constexpr std::size_t entry_bytes = 4096;  // limits the number of empty files as well
   std::size_t sum = 0;
   std::error_code error;
   for (fs::recursive_directory_iterator
            entry(folder, fs::directory_options::skip_permission_denied, error),
        end;
-       entry != end && !error && sum <= enough; entry.increment(error)) {
+       entry != end && !error && sum <= stop_above; entry.increment(error)) {
     std::error_code unknown;
     sum += entry_bytes;
     if (!entry->is_symlink(unknown) && entry->is_regular_file(unknown)) {

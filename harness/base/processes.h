@@ -79,8 +79,8 @@ void adopt_descendants();
 /// Kills every child of this process, including descendants that become its children.
 void kill_descendants();
 
-/// Returns the size of all files below a folder [bytes]. Counting stops above `enough`.
-[[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t enough);
+/// Returns the size of all files below a folder [bytes]. Counting stops above `stop_above`.
+[[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t stop_above);
 
 /// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing
 /// this line on standard error. Exceptions: `run_in_processes` handles these signals itself, and

@@ -9,8 +9,7 @@ namespace trammel::harness {
 
 double statistic_of(const std::string& name, const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const bool finite =
-      std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  const bool finite = std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
   if (!finite) return std::numeric_limits<double>::quiet_NaN();
   const auto [least, most] = std::ranges::minmax_element(values);
   const auto count = static_cast<double>(values.size());

@@ -75,10 +75,10 @@ std::string shell_quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string join(const std::vector<std::string>& items, const std::string& last) {
+std::string join(const std::vector<std::string>& items, const std::string& and_or) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0) text += i + 1 == items.size() ? " " + last + " " : ", ";
+    if (i > 0) text += i + 1 == items.size() ? " " + and_or + " " : ", ";
     text += items[i];
   }
   return text;

@@ -23,8 +23,8 @@ namespace trammel::harness {
 /// Returns a word quoted so that a shell reads it unchanged.
 [[nodiscard]] std::string shell_quoted(const std::string& word);
 
-/// Returns items as a list in a sentence: "a, b or c", where `last` is "or".
-[[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& last);
+/// Returns items as a list in a sentence: "a, b or c", where `and_or` is "or".
+[[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& and_or);
 
 /// Returns the shortest decimal number that is read back as the same double.
 [[nodiscard]] std::string shortest_decimal(double value);

@@ -32,10 +32,11 @@ int runs_for(const std::function<void()>& work, double shortest_s) {
 
 }  // namespace
 
-RelativeTime relative_time(const std::vector<double>& times, const std::vector<double>& baseline,
-                           std::size_t first, std::size_t step) {
+RelativeTime time_ratio(const std::vector<double>& times, const std::vector<double>& baseline,
+                        std::size_t first, std::size_t stride) {
   std::vector<double> ratios;
-  for (std::size_t i = first; i < times.size(); i += step) ratios.push_back(times[i] / baseline[i]);
+  for (std::size_t i = first; i < times.size(); i += stride)
+    ratios.push_back(times[i] / baseline[i]);
   std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
@@ -44,9 +45,9 @@ RelativeTime relative_time(const std::vector<double>& times, const std::vector<d
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }
 
-double quantile(std::vector<double> values, double share) {
+double quantile(std::vector<double> values, double fraction) {
   std::ranges::sort(values);
-  const double at = share * static_cast<double>(values.size() - 1);
+  const double at = fraction * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   return std::lerp(values[below], values[above], at - static_cast<double>(below));
@@ -63,12 +64,12 @@ std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state) {
 }
 
 EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
-                               const std::function<void()>& round) {
+                               const std::function<void()>& batch) {
   constexpr double enough_s = 0.02;
   const Stopwatch watch;
   std::size_t rounds = 0;
   do {
-    round();
+    batch();
     ++rounds;
   } while (watch.wall_s() < enough_s);
   const std::size_t all = rounds * evaluations;
@@ -77,7 +78,7 @@ EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
 
 std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                      const TimingOptions& options,
-                                     const std::function<void()>& done) {
+                                     const std::function<void()>& after_repeat) {
   std::vector<Timing> timings(works.size());
   std::vector<std::vector<double>> wall(works.size());
   for (std::size_t i = 0; i < works.size(); ++i)
@@ -89,7 +90,7 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
       timings[i].cpu_s.push_back(elapsed.cpu_s);
       wall[i].push_back(elapsed.wall_s);
     }
-    if (done) done();
+    if (after_repeat) after_repeat();
   }
   for (std::size_t i = 0; i < works.size(); ++i) {
     Timing& timing = timings[i];

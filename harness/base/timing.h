@@ -33,17 +33,17 @@ struct RelativeTime {
 
 /// Returns the median ratio of two times. Ratios are computed for each repeat, because both times
 /// of a repeat were measured under the same machine load.
-/// @param first, step  selects the repeats first, first + step, ...; by default all repeats
-[[nodiscard]] RelativeTime relative_time(const std::vector<double>& times,
-                                         const std::vector<double>& baseline, std::size_t first = 0,
-                                         std::size_t step = 1);
+/// @param first, stride  selects the repeats first, first + stride, ...; by default all repeats
+[[nodiscard]] RelativeTime time_ratio(const std::vector<double>& times,
+                                      const std::vector<double>& baseline, std::size_t first = 0,
+                                      std::size_t stride = 1);
 
 /// Runs every function once to warm up, then all of them once in each repeat, in a new random
 /// order. Disturbances of the machine therefore affect the times of all functions alike.
 /// @param done  called after each repeat
 [[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                                    const TimingOptions& options,
-                                                   const std::function<void()>& done);
+                                                   const std::function<void()>& after_repeat);
 
 /// Time of one evaluation of a function. It is reported for information, and checks do not use it.
 struct EvaluationTime {
@@ -53,13 +53,13 @@ struct EvaluationTime {
 };
 
 /// Measures the mean time of one evaluation. Rounds are repeated for at least 0.02 s.
-/// @param round  performs `evaluations` evaluations
+/// @param batch  performs `evaluations` evaluations
 [[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
-                                             const std::function<void()>& round);
+                                             const std::function<void()>& batch);
 
 /// Returns the quantile of the values by linear interpolation between the sorted values.
-/// @param share  fraction of the values below the quantile: 0.5 for the median
-[[nodiscard]] double quantile(std::vector<double> values, double share);
+/// @param fraction  fraction of the values below the quantile: 0.5 for the median
+[[nodiscard]] double quantile(std::vector<double> values, double fraction);
 
 /// Returns a random permutation of 0 ... n - 1 that is the same on every machine.
 /// @param state  state of the random generator, which is advanced

@@ -67,7 +67,7 @@ int claims_command(const CommandOptions& options, const Renderers& /*renderers*/
   const Document document = load_claims();
   RunOptions run_options;
   run_options.jobs = options.jobs;
-  const std::vector<Case> cases = cases_of(document, Catalogue().load());
+  const std::vector<Case> cases = cases_used_by(document, Catalogue().load());
   const results::Claims claims = evaluate_claims(
       document, options.word.empty() ? run_with_progress(cases, References(), run_options)
                                      : stored_runs(options.word, cases));

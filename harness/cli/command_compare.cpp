@@ -215,7 +215,7 @@ Json read_if_results(const fs::path& file) {
 }
 
 int compare_command(const CommandOptions& options, const Renderers& renderers) {
-  if (!options.html.empty()) require_drawing(renderers);
+  if (!options.html.empty()) require_gnuplot(renderers);
   std::vector<Side> sides = sides_of(options.words);
   const SideComparison comparison = compare_sides(std::move(sides), !options.html.empty());
   if (options.json) {

@@ -88,9 +88,9 @@ void print_settings(const results::CostStudy& study) {
   Rows table(columns);
   std::string reasons;
   for (const results::CostSetting& setting : study.settings) {
-    const std::string status = setting.measured() ? "" : setting.status;
+    const std::string status = setting.is_measured() ? "" : setting.status;
     std::vector<Json> row = {setting.title,
-                             number_or_null(study.error(setting)),
+                             number_or_null(study.error_of(setting)),
                              number_or_null(setting.relative),
                              setting.time
                                  ? fmt::format("{:.3g} - {:.3g}", setting.time->relative_low,
@@ -116,8 +116,7 @@ void add_cheapest(const results::CostStudy& study, const results::CostOutput& ou
     } else {
       table.add({target, output.title, "no setting"});
     }
-    for (const std::size_t tied : best.tied)
-      table.add({"", "", "or " + study.settings[tied].title});
+    for (const std::size_t k : best.tied) table.add({"", "", "or " + study.settings[k].title});
   }
 }
 
@@ -131,7 +130,7 @@ void print(const results::CostStudy& study) {
   print_settings(study);
   results::CostOutput only{"", "", {}, study.cheapest};
   for (const results::CostSetting& setting : study.settings)
-    only.errors.push_back(study.error(setting));
+    only.errors.push_back(study.error_of(setting));
   Rows table({">within",
               study.outputs.empty() ? "" : "of",
               "cheapest setting",
@@ -178,7 +177,7 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   if (options.repeats < kLeastRepeats)
     throw InputError("trammel: --repeats requires at least 7 measurements (got " +
                      std::to_string(options.repeats) + ")");
-  require_drawing(renderers);
+  require_gnuplot(renderers);
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;

@@ -43,7 +43,7 @@ void add_run(Rows& rows, const EffectRun& run, const EffectRun& full) {
   for (const auto& [kind, change] : run.changes)
     changes.push_back(kind + " " + rounded(100 * change.value, 3));
   rows.add({effect_names(run.left_out), run.outcome.solved() ? "solved" : run.outcome.reason,
-            number_or_null(run.change()), join(changes, ","), ratio(run.cpu_s, full.cpu_s),
+            number_or_null(run.largest_change()), join(changes, ","), ratio(run.cpu_s, full.cpu_s),
             ratio(run.work, full.work), run.counters.element_evaluations,
             run.counters.factorizations, run.counters.solves});
 }
@@ -80,7 +80,7 @@ results::EffectScene scene_of(const std::string& id, const std::string& analysis
           .analysis = analysis,
           .chosen = effect_names(study.choice.chosen),
           .tolerance = study.tolerance,
-          .change = study.chosen.change(),
+          .change = study.chosen.largest_change(),
           .minimal = study.is_minimal(),
           .whole_s = study.full.cpu_s,
           .chosen_s = study.chosen.cpu_s,
@@ -109,7 +109,8 @@ void print_study(const EffectStudy& study) {
   own_contributions(study).print(std::cout, "  ");
   std::cout << "  time, work: relative to the full model; work: counted factorizations, solves and "
                "element matrices, weighted by unknowns\n\nChosen    "
-            << effect_names(study.choice.chosen) << "\nEffects   " << percent(study.chosen.change())
+            << effect_names(study.choice.chosen) << "\nEffects   "
+            << percent(study.chosen.largest_change())
             << " from the full model, measured; tolerance " << percent(study.tolerance) << '\n';
   if (study.mesh_change) {
     std::cout << "Mesh      " << percent(*study.mesh_change)
@@ -209,14 +210,13 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<EffectCase> cases = selected_cases(options);
   if (cases.size() == 1 && options.labels.empty() && options.out.empty())
     return print_one(cases.front(), options);
-  if (!options.out.empty()) require_drawing(renderers);
+  if (!options.out.empty()) require_gnuplot(renderers);
   std::vector<results::EffectScene> scenes;
   Json json = Json::array();
   bool all_hold = true;
   std::optional<Progress> progress("scenes");
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const EffectStudy study =
-        study_effects(cases[i].document, {options.tolerance, options.repeats});
+    const auto study = study_effects(cases[i].document, {options.tolerance, options.repeats});
     progress->show(i + 1, cases.size());
     if (!study.full.outcome.solved()) continue;
     const std::string analysis = analysis_kind(cases[i].document);

@@ -217,7 +217,7 @@ constexpr CommandEntry kCommands[] = {
 };
 
 std::string version_text() {
-  const Json all = environment();
+  const Json all = build_and_machine_info();
   std::string text = "trammel " TRAMMEL_VERSION "\ncommit " + all["commit"].get<std::string>();
   for (const auto& [name, version] : all["libraries"].items())
     text += "\n" + name + " " + version.get<std::string>();
@@ -322,7 +322,7 @@ class CommandLine {
 
 }  // namespace
 
-void require_drawing(const Renderers& renderers) {
+void require_gnuplot(const Renderers& renderers) {
   if (!renderers.has_gnuplot())
     throw InputError("PATH: expected a folder with gnuplot, which draws the report");
 }

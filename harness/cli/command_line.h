@@ -35,7 +35,7 @@ inline constexpr const char* kInterrupted =
 
 /// Checks that reports can be drawn, before any work is done.
 /// @throws InputError  if a report cannot be drawn.
-void require_drawing(const Renderers& renderers);
+void require_gnuplot(const Renderers& renderers);
 
 /// Runs the program.
 /// @param arguments  the command line without the program's name.

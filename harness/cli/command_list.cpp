@@ -102,7 +102,7 @@ void describe_effects(const Case& given) {
   const Document base = patched(given, kBaseVariant);
   if (!supports_effects(base)) return;
   const EffectChoice choice =
-      rethrow_as_input(base, [&] { return choose_effects(base, read_case_model(base)); });
+      rethrow_as_input_error(base, [&] { return choose_effects(base, read_case_model(base)); });
   print_effects(choice);
 }
 

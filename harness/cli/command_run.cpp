@@ -239,7 +239,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
         throw InputError(file.string(), fault->pointer, fault->message);
   if (files.size() > 1 && options.pdf)
     throw InputError("--pdf: a comparison of codes has no summary; expected one results file");
-  if (files.size() == 1) require_drawing(renderers);
+  if (files.size() == 1) require_gnuplot(renderers);
   require_programs(options);
   const OutputLock lock(options.out);
   std::filesystem::path page;
@@ -386,7 +386,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
       throw InputError("expected either cases or existing results files (got both)");
     return report_results(options, renderers);
   }
-  require_drawing(renderers);
+  require_gnuplot(renderers);
   require_programs(options);
   CommandOptions resuming = options;
   resuming.resume = !options.fresh;

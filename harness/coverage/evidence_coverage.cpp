@@ -39,16 +39,14 @@ class FeatureWalk {
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
       const std::string path = string_of(*reference), name = path.substr(path.rfind('/') + 1);
-      if (value != nullptr || seen_.insert(name).second)
-        visit(resolved(root_, stated), value, name);
+      if (value || seen_.insert(name).second) visit(resolve_ref(root_, stated), value, name);
       return;
     }
     if (const SchemaRule* alternatives = keyword(stated, "anyOf"))
       for (const SchemaRule& one : alternatives->GetArray()) visit(one, value, context);
     if (const SchemaRule* choices = keyword(stated, "enum"))
       for (const SchemaRule& choice : choices->GetArray()) visit_choice(choice, value, context);
-    if (const SchemaRule* items = keyword(stated, "items"))
-      visit_each(*items, value, context, true);
+    if (const auto* items = keyword(stated, "items")) visit_each(*items, value, context, true);
     if (const SchemaRule* others = keyword(stated, "additionalProperties"))
       if (others->IsObject()) visit_each(*others, value, context, false);
     if (const SchemaRule* properties = keyword(stated, "properties"))

@@ -146,7 +146,7 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
 }
 
 Json plain_model(const Document& document, const ExportedScene& scene) {
-  return rethrow_as_input(
+  return rethrow_as_input_error(
       document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
 }
 
@@ -200,7 +200,7 @@ Json mechanism_of(const Document& document) {
   if (!case_model.manipulator) throw analysis_place(document).error("requires a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
   if (analysis_kind(document) == "elastodynamics") {
-    mechanism["elastic_model"] = rethrow_as_input(document, [&] {
+    mechanism["elastic_model"] = rethrow_as_input_error(document, [&] {
       return plain_model(document,
                          {build_without_joint_elements(case_model, 0), case_model.joint_elements});
     });
@@ -231,7 +231,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
                                         (names.empty() ? "none" : join(names, "and")) + ")");
   std::vector<Level> all = sweep_levels(document, name);
   if (*choice.level >= all.size())
-    throw document.error("/sweeps/" + name, "expected a level from 0 to " +
+    throw document.error("/sweeps/" + name, "expected a sweep level from 0 to " +
                                                 std::to_string(all.size() - 1) + " (got " +
                                                 std::to_string(*choice.level) + ")");
   return all[*choice.level].document;
@@ -240,7 +240,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
 ExportedScene exported_scene(const Document& document) {
   require_exportable(document);
   CaseModel case_model = read_case_model(document);
-  return rethrow_as_input(document, [&] {
+  return rethrow_as_input_error(document, [&] {
     if (document.value().contains("effects"))
       case_model.effects = choose_effects(document, case_model).chosen;
     ExportedScene scene{build_without_joint_elements(case_model, 0), case_model.joint_elements,

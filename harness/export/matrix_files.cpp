@@ -77,7 +77,7 @@ std::string mesh_text(const solver::System& system) {
 
 void write_system_matrices(const Document& document, const ExportedScene& scene,
                            const std::filesystem::path& folder) {
-  const solver::System system = rethrow_as_input(document, [&] {
+  const solver::System system = rethrow_as_input_error(document, [&] {
     solver::require(scene.joints.line_springs.empty() && scene.joints.follower_loads.empty(),
                     "line springs and follower loads have no matrices");
     solver::Model model = scene.model;

@@ -280,7 +280,7 @@ class ModelWriter {
   template <class T>
   [[nodiscard]] Json json_of(T part) {
     FieldWriter writer{node_, table_};
-    fields(writer, part);
+    visit_fields(writer, part);
     return std::move(writer.json);
   }
 

@@ -64,7 +64,7 @@ void write_collection(const std::filesystem::path& folder, const std::string& na
 }  // namespace
 
 std::string vtu(const std::vector<Point>& nodes, const std::vector<VtkCell>& cells,
-                const std::string& part, const std::vector<Point>& displacement) {
+                const std::string& cell_data_name, const std::vector<Point>& displacement) {
   std::string connectivity, offsets, types, parts;
   std::size_t last = 0;
   for (const VtkCell& cell : cells) {
@@ -85,7 +85,7 @@ std::string vtu(const std::vector<Point>& nodes, const std::vector<VtkCell>& cel
       "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
       nodes.size(), cells.size(), moved, array("Float64", "points", 3, vectors(nodes)),
       array("Int64", "connectivity", 1, connectivity), array("Int64", "offsets", 1, offsets),
-      array("UInt8", "types", 1, types), array("Int64", part, 1, parts));
+      array("UInt8", "types", 1, types), array("Int64", cell_data_name, 1, parts));
 }
 
 void write_vtk(const results::Run& run, const std::filesystem::path& folder) {

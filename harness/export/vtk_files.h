@@ -20,7 +20,7 @@ struct VtkCell {
 /// Returns an unstructured grid in the plane as the text of a VTU file.
 /// @param displacement  displacement of each node [m]; may be empty
 [[nodiscard]] std::string vtu(const std::vector<results::Point>& nodes,
-                              const std::vector<VtkCell>& cells, const std::string& part,
+                              const std::vector<VtkCell>& cells, const std::string& cell_data_name,
                               const std::vector<results::Point>& displacement = {});
 
 /// Writes the drawings of a run as CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd. These files

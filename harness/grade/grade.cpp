@@ -217,7 +217,7 @@ Quantity read_quantity(const Json& given, const Json& asked, const std::string& 
 
 }  // namespace
 
-void read_adapter_answer(const std::filesystem::path& file, const Json& asked, Run& run) {
+void read_adapter_answer(const std::filesystem::path& file, const Json& requested, Run& run) {
   const std::string name = file.filename().string();
   std::error_code error;
   const auto bytes = std::filesystem::file_size(file, error);
@@ -240,14 +240,14 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked, R
       run.solver.digits = solver.at("digits").get<int>();
   }
   std::vector<std::string> known;
-  for (const Json& one : asked.at("quantities")) known.push_back(one.at("name"));
+  for (const Json& one : requested.at("quantities")) known.push_back(one.at("name"));
   const Json quantities = json.value("quantities", Json::object());
   for (const auto& item : quantities.items()) {
     const std::string pointer = (JsonPointer("/quantities") / item.key()).to_string();
     const InputError unknown(
         name, pointer, "trammel has no quantity of this name" + did_you_mean(item.key(), known));
     run.quantities[item.key()] =
-        read_quantity(item.value(), asked_quantity(asked, item.key(), unknown), name, pointer);
+        read_quantity(item.value(), asked_quantity(requested, item.key(), unknown), name, pointer);
   }
   if (json.contains("cost") && json.at("cost").contains("seconds"))
     run.cost.timings = {{"solver", json.at("cost").at("seconds").get<double>(), 1}};

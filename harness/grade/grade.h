@@ -29,9 +29,9 @@ struct Adapter {
 
 /// Reads the RESULT.json of an adapter into status, reason, quantities and solver. Missing
 /// quantities are not an error.
-/// @param asked  "export" of the exported case: names, units and lengths of the quantities.
+/// @param requested  "export" of the exported case: names, units and lengths of the quantities.
 /// @throws InputError  if the file is missing, larger than 64 MiB, not JSON or violates its schema.
 ///     Also throws for an unknown quantity, unit or length.
-void read_adapter_answer(const std::filesystem::path& file, const Json& asked, Run& run);
+void read_adapter_answer(const std::filesystem::path& file, const Json& requested, Run& run);
 
 }  // namespace trammel::harness

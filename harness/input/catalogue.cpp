@@ -52,7 +52,7 @@ bool Catalogue::has_analysis(const fs::path& file, int depth) const {
   return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);
 }
 
-fs::path Catalogue::by_name(const std::string& name) const {
+fs::path Catalogue::file_of_name(const std::string& name) const {
   if (!is_name(name)) return {};
   const fs::path wanted(name);
   const std::string id = (wanted.extension() == ".json" ? wanted.stem() : wanted).string();
@@ -78,20 +78,21 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
   std::error_code error;
   const bool looks_like_file = !is_name(name_or_file) || file.extension() == ".json";
   if (looks_like_file && fs::exists(file, error)) return file;
-  if (fs::path found = by_name(name_or_file); !found.empty()) return found;
+  if (fs::path found = file_of_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file (not found)");
   throw InputError(
       unknown_name_message("a case of the catalogue or a file", name_or_file, names()));
 }
 
-fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::path& from) const {
+fs::path Catalogue::find_base_case(const std::string& name_or_file,
+                                   const fs::path& extending_file) const {
   std::error_code error;
-  fs::path file = from.parent_path() / name_or_file;
+  fs::path file = extending_file.parent_path() / name_or_file;
   if (fs::is_regular_file(file, error)) return file;
   file += ".json";
   if (fs::is_regular_file(file, error)) return file;
-  if (fs::path found = by_name(name_or_file); !found.empty()) return found;
-  throw InputError(from.string(), "/extends",
+  if (fs::path found = file_of_name(name_or_file); !found.empty()) return found;
+  throw InputError(extending_file.string(), "/extends",
                    unknown_name_message("a file relative to this one or a case of the catalogue",
                                         name_or_file, names()));
 }

@@ -25,11 +25,11 @@ class Catalogue {
   /// @throws InputError  if the case does not exist. The message suggests the most similar name.
   [[nodiscard]] std::filesystem::path find_case(const std::string& name_or_file) const;
 
-  /// Returns the case file to which the key "extends" of the file `from` refers, by a path relative
-  /// to `from` or by a name in the catalogue.
+  /// Returns the case file to which the key "extends" of the file `extending_file` refers, by a
+  /// path relative to `extending_file` or by a name in the catalogue.
   /// @throws InputError  if the case file does not exist.
-  [[nodiscard]] std::filesystem::path find_base_case(const std::string& name_or_file,
-                                                     const std::filesystem::path& from) const;
+  [[nodiscard]] std::filesystem::path find_base_case(
+      const std::string& name_or_file, const std::filesystem::path& extending_file) const;
 
   /// Returns the cases with all `labels` and, unless `any_labels` is empty, one of `any_labels`.
   /// @throws InputError  for a label that no case has, or if no case is selected.
@@ -37,7 +37,7 @@ class Catalogue {
                                        const std::vector<std::string>& any_labels = {}) const;
 
  private:
-  [[nodiscard]] std::filesystem::path by_name(const std::string& name) const;
+  [[nodiscard]] std::filesystem::path file_of_name(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] bool has_analysis(const std::filesystem::path& file, int depth = 0) const;
 

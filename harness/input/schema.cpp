@@ -110,7 +110,7 @@ class Checker {
   /// Returns the rule to which "$ref" refers. The result is cached.
   const SchemaRule& meant(const SchemaRule& stated) {
     const SchemaRule*& rule = meant_[&stated];
-    if (rule == nullptr) rule = &resolved(root_, stated);
+    if (rule == nullptr) rule = &resolve_ref(root_, stated);
     return *rule;
   }
 

@@ -33,11 +33,12 @@ const SchemaRule& load_schema(const std::string& name) {
   return document;
 }
 
-const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {
+const SchemaRule& resolve_ref(const SchemaRule& root, const SchemaRule& rule) {
   const SchemaRule* reference = keyword(rule, "$ref");
   if (reference == nullptr) return rule;
   using Pointer = rapidjson::GenericPointer<SchemaRule, SchemaAllocator>;
-  return resolved(root, *Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
+  return resolve_ref(root,
+                     *Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
 }
 
 bool allows_type(const SchemaRule& rule, const char* type) {
@@ -54,7 +55,7 @@ using Rules = std::vector<const SchemaRule*>;
 
 /// Collects the rules of a schema node after resolving "$ref" and "anyOf".
 void open(const SchemaRule& root, const SchemaRule& stated, Rules& rules) {
-  const SchemaRule& rule = resolved(root, stated);
+  const SchemaRule& rule = resolve_ref(root, stated);
   const SchemaRule* any = keyword(rule, "anyOf");
   if (any == nullptr) {
     rules.push_back(&rule);

@@ -23,16 +23,16 @@ namespace trammel::harness {
 /// then dereferences.
 struct SchemaAllocator {
   static constexpr bool kNeedFree = true;
-  static void* Malloc(std::size_t size) { return size > 0 ? checked(std::malloc(size)) : nullptr; }
+  static void* Malloc(std::size_t size) { return size > 0 ? non_null(std::malloc(size)) : nullptr; }
   static void* Realloc(void* data, std::size_t /*old_size*/, std::size_t size) {
-    if (size > 0) return checked(std::realloc(data, size));
+    if (size > 0) return non_null(std::realloc(data, size));
     std::free(data);
     return nullptr;
   }
   static void Free(void* data) { std::free(data); }
 
  private:
-  static void* checked(void* data) { return data != nullptr ? data : throw std::bad_alloc(); }
+  static void* non_null(void* data) { return data != nullptr ? data : throw std::bad_alloc(); }
 };
 
 using SchemaPool = rapidjson::MemoryPoolAllocator<SchemaAllocator>;
@@ -47,7 +47,7 @@ using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool,
 [[nodiscard]] const SchemaRule& load_schema(const std::string& name);
 
 /// Returns the schema rule to which "$ref" refers, or the rule itself if it has no "$ref".
-[[nodiscard]] const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule);
+[[nodiscard]] const SchemaRule& resolve_ref(const SchemaRule& root, const SchemaRule& rule);
 
 /// Returns true if the keyword "type" of a schema rule allows the given JSON type.
 [[nodiscard]] bool allows_type(const SchemaRule& rule, const char* type);

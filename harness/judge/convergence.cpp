@@ -292,7 +292,7 @@ class Fit {
 std::optional<TwoTermLaw> fit_two_term_error_law(const std::vector<double>& h,
                                                  const std::vector<double>& error,
                                                  const std::vector<bool>& usable,
-                                                 const TwoTermOrders& law, double within) {
+                                                 const TwoTermOrders& law, double max_residual) {
   std::vector<bool> levels = usable;
   for (std::size_t k = 0; k < levels.size(); ++k)
     levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
@@ -300,7 +300,7 @@ std::optional<TwoTermLaw> fit_two_term_error_law(const std::vector<double>& h,
   std::optional<TwoTermLaw> found;
   while (std::ranges::count(levels, true) >= 3) {
     found = fit.over(levels);
-    if (found && found->max_relative_misfit <= within) break;
+    if (found && found->max_relative_misfit <= max_residual) break;
     *std::ranges::find(levels, true) = false;
   }
   return found;
@@ -313,8 +313,7 @@ double extrapolate_two_term_law(const std::array<double, 3>& h, const std::array
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
   const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };
   const double determinant = p(0) * q(1) - p(1) * q(0);
-  if (determinant == 0 || !std::isfinite(determinant))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (determinant == 0 || !std::isfinite(determinant)) return std::nan("");
   const double d0 = v[0] - v[2], d1 = v[1] - v[2];
   const double a = (d0 * q(1) - d1 * q(0)) / determinant, b = (p(0) * d1 - p(1) * d0) / determinant;
   return v[2] - a - b;

@@ -66,7 +66,7 @@ struct TwoTermOrders {
 /// @return empty for fewer than three usable levels
 [[nodiscard]] std::optional<results::TwoTermLaw> fit_two_term_error_law(
     const std::vector<double>& h, const std::vector<double>& error, const std::vector<bool>& usable,
-    const TwoTermOrders& law, double within);
+    const TwoTermOrders& law, double max_residual);
 
 /// Fits v = limit + a h^p + b h^q to the values v on three refinement levels, and returns the
 /// limit. Returns NaN if two levels have the same element size h.

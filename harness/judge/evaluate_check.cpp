@@ -116,10 +116,10 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   if (!check.against_variant.empty() || !check.against_quantity.empty())
     pair_with_run(check, context, pairs);
   if (check.has_comparison_target() && pairs.expected.size() != pairs.computed.size())
-    throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
+    throw NotComparable{fmt::format("the numbers of values differ: {} computed, {} expected",
                                     pairs.computed.size(), pairs.expected.size())};
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size())
-    throw NotComparable{fmt::format("the lengths differ: {} computed, {} windows",
+    throw NotComparable{fmt::format("{} values were computed, but the check has {} windows",
                                     pairs.computed.size(), check.windows.size())};
   return pairs;
 }
@@ -190,7 +190,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
 }
 
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
-  CheckResult worst = *std::ranges::min_element(entries, results::worse);
+  CheckResult worst = *std::ranges::min_element(entries, results::is_worse_than);
   worst.message = "worst of " + std::to_string(entries.size()) +
                   (worst.message.empty() ? "" : ": " + worst.message);
   return {worst};
@@ -200,7 +200,7 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
                                           const results::SolverIdentity* other_solver) {
   std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
-    CheckResult entry = start_check_result(check);
+    CheckResult entry = create_check_result(check);
     if (check.statistic.empty()) entry.index = check.index.empty() ? i : check.index[i];
     entry.computed = pairs.computed[i];
     if (!pairs.expected.empty()) entry.expected = pairs.expected[i];
@@ -259,7 +259,7 @@ std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& 
   return entries;
 }
 
-CheckResult start_check_result(const Check& check) {
+CheckResult create_check_result(const Check& check) {
   CheckResult entry;
   entry.name = check.name;
   entry.title = check.title;
@@ -277,7 +277,7 @@ CheckResult start_check_result(const Check& check) {
 }
 
 CheckResult failed_check_result(const Check& check, const std::string& message) {
-  CheckResult entry = start_check_result(check);
+  CheckResult entry = create_check_result(check);
   entry.message = message;
   return entry;
 }

@@ -31,7 +31,7 @@ struct CheckContext {
 };
 
 /// Creates a judgment with the check's name, role and reasons, and with the verdict "error".
-[[nodiscard]] CheckResult start_check_result(const Check& check);
+[[nodiscard]] CheckResult create_check_result(const Check& check);
 /// Creates a judgment with the verdict "error" and the given message.
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 

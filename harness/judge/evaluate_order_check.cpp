@@ -87,7 +87,7 @@ class OrderCheckEvaluator {
 
   [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
                                   std::string unit) const {
-    CheckResult check_result = start_check_result(check_);
+    CheckResult check_result = create_check_result(check_);
     check_result.name += suffix;
     check_result.measure = std::move(measure);
     check_result.unit = std::move(unit);

@@ -106,9 +106,9 @@ bool changes(const Convergence& series) {
 
 }  // namespace
 
-double element_size(const std::string& measures, double parameter) {
-  if (measures == "halvings") return std::exp2(-parameter);
-  return measures == "size" ? parameter : 1 / parameter;
+double element_size(const std::string& parameter_meaning, double parameter) {
+  if (parameter_meaning == "halvings") return std::exp2(-parameter);
+  return parameter_meaning == "size" ? parameter : 1 / parameter;
 }
 
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks) {

@@ -15,8 +15,9 @@ namespace trammel::harness {
 using results::Sweep;
 
 /// Returns the element size h for a value of the refined parameter, up to a common factor.
-/// @param measures  meaning of the parameter: "elements" per length, "halvings" of h, or "size"
-[[nodiscard]] double element_size(const std::string& measures, double parameter);
+/// @param parameter_meaning  meaning of the parameter: "elements" per length, "halvings" of h, or
+///   "size"
+[[nodiscard]] double element_size(const std::string& parameter_meaning, double parameter);
 
 /// Selection of the quantities of a sweep whose convergence is studied (tracked quantities).
 enum class TrackedQuantities {

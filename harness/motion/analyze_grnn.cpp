@@ -68,7 +68,7 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
 GrnnSamples read_samples(const JsonView& samples) {
   GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
   if (read.inputs.rows() != read.outputs.rows())
-    throw samples["outputs"].error("expected one row per row of 'inputs', " +
+    throw samples["outputs"].error("expected the number of rows of 'inputs', " +
                                    std::to_string(read.inputs.rows()));
   for (solver::Index j = 0; j < read.outputs.cols(); ++j)
     read.columns.push_back({"", "", std::to_string(j + 1)});
@@ -304,8 +304,7 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
   for (std::size_t k = 0; k < case_model.motion.size(); ++k) {
     const auto row = static_cast<solver::Index>(k);
     const std::array<double, 3> active = {predicted(row, 0), predicted(row, 1), predicted(row, 2)};
-    const solver::ForwardKinematics found =
-        solver::forward_kinematics(geometry, active, case_model.motion[k].pose);
+    const auto found = solver::forward_kinematics(geometry, active, case_model.motion[k].pose);
     const bool solved = found.outcome.solved();
     record.add_or_missing("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
     record.add_or_missing("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
@@ -318,8 +317,7 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
 Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::MatrixXd& outputs,
                                  const std::vector<solver::Index>& training) {
   std::vector<double> times;
-  for (const solver::Index k : training)
-    times.push_back(case_model.motion[solver::to_size(k)].time);
+  for (const auto k : training) times.push_back(case_model.motion[solver::to_size(k)].time);
   Eigen::MatrixXd predicted(outputs.rows(), outputs.cols());
   for (solver::Index j = 0; j < outputs.cols(); ++j) {
     const Eigen::VectorXd values = outputs(training, j);
@@ -397,8 +395,8 @@ StepResult analyze_grnn_samples(const Document& document, const References&, boo
   const GrnnSamples samples = read_samples(analysis["samples"]);
   const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
   if (queries.cols() != samples.inputs.cols())
-    throw analysis["queries"].error("expected rows of the same length as those of the inputs, " +
-                                    std::to_string(samples.inputs.cols()));
+    throw analysis["queries"].error("expected rows of " + std::to_string(samples.inputs.cols()) +
+                                    " numbers, as in 'inputs'");
   try {
     solver::Grnn network = solver::make_grnn(samples.inputs, samples.outputs, 1,
                                              analysis.get("scaling", solver::InputScaling::none));

@@ -22,7 +22,7 @@ class HarmonicScene {
         high(analysis.number("to_Hz")),
         points(static_cast<std::size_t>(analysis.get<solver::Index>("points", 101))),
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
-    if (case_model.path) throw analysis.error("requires a model with 'pose' (got 'trajectory')");
+    if (case_model.path) throw analysis.error("this analysis requires 'pose' (got 'trajectory')");
     if (!(high > low)) throw analysis["to_Hz"].error("expected a frequency above 'from_Hz'");
     ReducedSystem reduced = reduced_system(
         analysis, solver::assemble(build_model(case_model, step), case_model.effects),
@@ -54,7 +54,7 @@ class HarmonicScene {
         record.add(output.name, output.value(system.model, amplitudes));
       }
     }
-    if (damped_) result.counters.count(solver::Effect::damping, 1);
+    if (damped_) result.counters.add(solver::Effect::damping, 1);
     if (q.size() == 0) return;
     result.evidence.add(solver::Residual::equilibrium, response->backward_error(q, frequency));
     for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
@@ -69,7 +69,7 @@ class HarmonicScene {
     if (!resonances) {
       add_warning(warnings, {"the number of natural frequencies found in the range", 0, "",
                              "a narrow peak between two of 65 frequencies may have been missed"});
-      const Eigen::VectorXd damped = response->frequencies();
+      const Eigen::VectorXd damped = response->damped_mode_frequencies();
       resonances.emplace(damped.begin(), damped.end());
     }
     std::vector<double> peaks;
@@ -173,7 +173,7 @@ StepResult analyze_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (needs_forces(scene.outputs)) warn_of_redundant_constraints(scene.system, result.warnings);
   const double peak = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) scene.draw_at(peak, *result.drawing);
-  for (const double frequency : scene.response->frequencies())
+  for (const double frequency : scene.response->damped_mode_frequencies())
     record.add("natural_frequency_Hz", frequency);
   record.add("degrees_of_freedom", scene.system.K.rows());
   result.counters += scene.response->counters();

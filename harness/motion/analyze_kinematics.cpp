@@ -15,8 +15,7 @@ StepResult analyze_kinematics(const JsonView&, const CaseModel& case_model, std:
   if (draw && step == 0) result.drawing = draw_manipulator(geometry, case_model.motion);
   if (!posture.outcome.solved()) return result;
   const solver::Jacobians at = solver::jacobians(geometry, pose, posture);
-  const solver::HoldingTorques holding =
-      solver::holding_torques(at, wrench_on_platform(case_model, pose));
+  const auto holding = solver::holding_torques(at, wrench_on_platform(case_model, pose));
   result.outcome = holding.outcome;
   record.add_each("active_angle_rad", kActiveJoints, posture.active);
   record.add_each("passive_angle_rad", kElbows, posture.passive);

@@ -214,7 +214,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_prescribed_motions(analysis, model, large_motion);
-  read_history(analysis, model, large_motion);
+  read_motion_conditions(analysis, model, large_motion);
   const bool damped = case_model.effects.has(solver::Effect::damping) &&
                       (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
   if (!damped) large_motion.mass_damping = large_motion.strain_rate_damping = 0;
@@ -225,7 +225,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
                  case_model, model, large_motion);
     require_path_to_the_end(analysis, *case_model.path);
     for (const char* key : {"extrapolated", "initial_velocities"})
-      if (analysis.has(key)) throw analysis[key].error("not allowed with 'track'");
+      if (analysis.has(key)) throw analysis[key].error("this key excludes 'track'");
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha")
       throw analysis["integrator"].error("'track' requires the integrator 'generalized-alpha'");
   }
@@ -256,7 +256,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   result.evidence = summary.evidence;
   result.counters = summary.counters;
   solver::count_element_evaluations(system, summary.iterations, true, result.counters);
-  if (damped) result.counters.count(solver::Effect::damping, summary.iterations);
+  if (damped) result.counters.add(solver::Effect::damping, summary.iterations);
   result.counters.element_evaluations = system.element_evaluations();
   record_summary(summary, log, record);
   if (result.outcome.solved() && last.q.size() > 0)

@@ -119,7 +119,7 @@ std::vector<double> sample_times(const JsonView& transient) {
 /// Reads the rotating axes in which the motion is described.
 solver::PrescribedRotation read_axes(const JsonView& transient) {
   for (const char* key : {"load_history", "initial_state"})
-    if (transient.has(key)) throw transient[key].error("not allowed with 'rotating_frame'");
+    if (transient.has(key)) throw transient[key].error("this key excludes 'rotating_frame'");
   const JsonView place = transient["rotating_frame"];
   solver::PrescribedRotation axes;
   axes.speed = [law = read_motion_law(place["law"])](double time) {
@@ -142,7 +142,7 @@ class Motion {
 
   MotionHistory run() {
     history_.counters = system_.counters;
-    if (damped_) history_.counters.count(solver::Effect::damping, 1);
+    if (damped_) history_.counters.add(solver::Effect::damping, 1);
     history_.time = sample_times(transient_);
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
@@ -236,9 +236,9 @@ class Motion {
 
   void superpose_modes() {
     if (transient_.has("error_control"))
-      throw transient_["error_control"].error("not allowed with 'modal-superposition'");
+      throw transient_["error_control"].error("this key excludes 'modal-superposition'");
     if (transient_.has("rotating_frame"))
-      throw transient_["rotating_frame"].error("not allowed with 'modal-superposition'");
+      throw transient_["rotating_frame"].error("this key excludes 'modal-superposition'");
     const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
     history_.outcome = basis.outcome;
     if (!basis.outcome.solved()) return;
@@ -369,9 +369,9 @@ void draw_motion(const solver::System& system, const MotionHistory& motion, Draw
 
 StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
-  if (case_model.path) throw analysis.error("requires a model with 'pose' (got 'trajectory')");
+  if (case_model.path) throw analysis.error("this analysis requires one 'pose' (got 'trajectory')");
   if (analysis.has("reduction") && analysis.has("rotating_frame"))
-    throw analysis["reduction"].error("not allowed with 'rotating_frame'");
+    throw analysis["reduction"].error("this key excludes 'rotating_frame'");
   solver::System assembled = solver::assemble(build_model(case_model, step), case_model.effects);
   std::optional<solver::System> full;
   if (analysis.has("reduction")) full = assembled;

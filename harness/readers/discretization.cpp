@@ -73,7 +73,7 @@ bool refine_links(const Document& document, Refine refine, Json& patch) {
 
 }  // namespace
 
-std::string discretized_analysis(const Document& document) {
+std::string inner_analysis_kind(const Document& document) {
   const Json& analysis = document.value().at("analysis");
   const std::string kind = analysis.begin().key();
   return kind == "study" ? analysis["study"]["analysis"].begin().key() : kind;
@@ -82,13 +82,13 @@ std::string discretized_analysis(const Document& document) {
 std::string analysis_pointer(const Document& document) {
   const bool is_study = document.value().at("analysis").contains("study");
   return std::string("/analysis/") + (is_study ? "study/analysis/" : "") +
-         discretized_analysis(document);
+         inner_analysis_kind(document);
 }
 
 solver::Index default_element_count(const Document& document) {
   const Json* stated = find(document.value(), "/model/elements");
   if (stated != nullptr) return stated->get<solver::Index>();
-  const std::string kind = discretized_analysis(document);
+  const std::string kind = inner_analysis_kind(document);
   const Json* second_order = find(document.value(), analysis_pointer(document) + "/second_order");
   const bool is_linear = second_order == nullptr || !second_order->get<bool>();
   if (kind == "large-statics" || kind == "properties") return 1;
@@ -138,7 +138,7 @@ bool has_step_tolerance(const Document& document) {
 }
 
 std::optional<Sampling> output_sampling(const Document& document) {
-  const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
+  const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   if (kind == "harmonic") return Sampling{place + "/points", analysis.value("points", 101) - 1};
   if (kind != "transient") return std::nullopt;
@@ -156,7 +156,7 @@ Json sampling_patch(const Document& document, solver::Index intervals) {
 }
 
 std::optional<Json> time_step_patch(const Document& document, Refine refine, double largest_step) {
-  const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
+  const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   const bool is_exact =
       analysis.value("modal_superposition", false) ||

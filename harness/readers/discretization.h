@@ -11,7 +11,7 @@ namespace trammel::harness {
 
 /// Returns the kind of a case's analysis, such as "modes". For a parameter study, returns the kind
 /// of the analysis that the study repeats.
-[[nodiscard]] std::string discretized_analysis(const Document& document);
+[[nodiscard]] std::string inner_analysis_kind(const Document& document);
 /// Returns the JSON pointer of the analysis that `discretized_analysis` names, such as
 /// "/analysis/modes" or, for a study, "/analysis/study/analysis/modes".
 [[nodiscard]] std::string analysis_pointer(const Document& document);

@@ -14,22 +14,22 @@
 namespace trammel::harness {
 
 /// Returns the entry of `named` whose key is a name stated in the case.
-/// @param what  text for the message: "a node", "a section"
+/// @param kind  text for the message: "a node", "a section"
 /// @throws InputError  at `place`, with the nearest name, if the name is unknown.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const std::string& name,
-                               const JsonView& place, const std::string& what) {
+                               const JsonView& place, const std::string& kind) {
   const auto found = named.find(name);
   if (found != named.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& item : named) names.push_back(item.first);
-  throw place.error(unknown_name_message("the name of " + what, name, names));
+  throw place.error(unknown_name_message("the name of " + kind, name, names));
 }
 
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const JsonView& name,
-                               const std::string& what) {
-  return look_up(named, name.get<std::string>(), name, what);
+                               const std::string& kind) {
+  return look_up(named, name.get<std::string>(), name, kind);
 }
 
 /// Edge of plates, composed of sides of meshed blocks.
@@ -132,12 +132,12 @@ class FieldReader {
   const SymbolTable* symbols_;
 };
 
-/// Reads a part of a model, such as a spring. Its `fields` function lists the keys.
+/// Reads a part of a model, such as a spring. Its `visit_fields` function lists the keys.
 template <class T>
 [[nodiscard]] T read_part(const JsonView& place, const SymbolTable* symbols = nullptr) {
   T part{};
   const FieldReader reader(place, symbols);
-  fields(reader, part);
+  visit_fields(reader, part);
   return part;
 }
 

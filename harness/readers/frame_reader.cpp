@@ -80,7 +80,7 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   member.name = name;
   member.elements = elements;
   const FieldReader reader(place, &symbols);
-  fields(reader, member);
+  visit_fields(reader, member);
   const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
                                nodes[solver::to_size(member.nodes[0])].position;
   if (!(span.norm() > 0))
@@ -103,7 +103,7 @@ void read_members(const JsonView& model, const SymbolTable& symbols, solver::Mod
     const FieldReader reader(place);
     if (place.has("arc_center_m")) reader.optional("arc_center_m", chain.arc_center.emplace());
     reader.optional("restrained_motions", chain.held);
-    if (!chain.needed()) {
+    if (!chain.needs_chain()) {
       structure.members.push_back(member);
       continue;
     }
@@ -239,10 +239,10 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
 
 }  // namespace
 
-Structure read_structure(const JsonView& model, const std::vector<solver::Node>& before) {
+Structure read_structure(const JsonView& model, const std::vector<solver::Node>& given_nodes) {
   Structure read;
   solver::Model& structure = read.model;
-  structure.nodes = before;
+  structure.nodes = given_nodes;
   SymbolTable symbols = read_symbols(model, structure);
   read_members(model, symbols, structure);
   read_plates(model, symbols, structure);
@@ -256,10 +256,10 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
   });
   for (const auto& [name, place] : model.entries("loads")) read_load(place, symbols, structure);
   FieldReader(model).optional("gravity_m_s2", structure.gravity);
-  require_connected_nodes(model, before.size(), structure);
+  require_connected_nodes(model, given_nodes.size(), structure);
   read.joints = read_joint_elements(model, symbols);
   structure.nodes.erase(structure.nodes.begin(),
-                        structure.nodes.begin() + static_cast<solver::Index>(before.size()));
+                        structure.nodes.begin() + static_cast<solver::Index>(given_nodes.size()));
   return read;
 }
 

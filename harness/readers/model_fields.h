@@ -44,14 +44,14 @@ struct NodeNames {
 };
 
 template <class Io>
-void fields(Io& io, solver::Material& material) {
+void visit_fields(Io& io, solver::Material& material) {
   io.required("E_Pa", material.E);
   io.required("rho_kg_m3", material.rho);
   io.required("nu", material.nu);
 }
 
 template <class Io>
-void fields(Io& io, solver::Member& member) {
+void visit_fields(Io& io, solver::Member& member) {
   io.required("nodes", NodeNames{member.nodes});
   io.required("section", member.section);
   io.defaulted("beam", member.theory);
@@ -69,19 +69,19 @@ void fields(Io& io, solver::Member& member) {
 }
 
 template <class Io>
-void fields(Io& io, solver::Plate& plate) {
+void visit_fields(Io& io, solver::Plate& plate) {
   io.required("material", plate.material);
   io.required("thickness_m", plate.thickness);
 }
 
 template <class Io>
-void fields(Io& io, solver::RigidBody& body) {
+void visit_fields(Io& io, solver::RigidBody& body) {
   io.required("reference", NodeNames{body.reference});
   io.required("nodes", NodeNames{body.attached});
 }
 
 template <class Io>
-void fields(Io& io, solver::PointMass& mass) {
+void visit_fields(Io& io, solver::PointMass& mass) {
   io.required("node", NodeNames{mass.node});
   io.required("mass_kg", mass.mass);
   io.defaulted("inertia_kg_m2", mass.inertia);
@@ -89,7 +89,7 @@ void fields(Io& io, solver::PointMass& mass) {
 }
 
 template <class Io>
-void fields(Io& io, solver::Spring& spring) {
+void visit_fields(Io& io, solver::Spring& spring) {
   io.required("nodes", NodeNames{spring.nodes});
   io.defaulted("stiffness_N_per_m", spring.stiffness.head<2>());
   io.defaulted("rotational_stiffness_N_m_per_rad", spring.stiffness.z());
@@ -101,12 +101,12 @@ struct Pin {
   std::array<solver::Index, 2> nodes{};
 };
 template <class Io>
-void fields(Io& io, Pin& pin) {
+void visit_fields(Io& io, Pin& pin) {
   io.required("nodes", NodeNames{pin.nodes});
 }
 
 template <class Io>
-void fields(Io& io, solver::large_motion::Slider& slider) {
+void visit_fields(Io& io, solver::large_motion::Slider& slider) {
   io.required("node", NodeNames{slider.node});
   io.required("direction_rad", slider.direction);
   io.defaulted("keeps_angle", slider.keeps_angle);
@@ -114,7 +114,7 @@ void fields(Io& io, solver::large_motion::Slider& slider) {
 }
 
 template <class Io>
-void fields(Io& io, solver::large_motion::LineSpring& spring) {
+void visit_fields(Io& io, solver::large_motion::LineSpring& spring) {
   io.required("nodes", NodeNames{spring.nodes});
   io.required("stiffness_N_per_m", spring.stiffness);
   io.optional("rest_length_m", spring.rest_length);
@@ -125,7 +125,7 @@ template <class Io, class Load>
 requires requires(Load load) {
   load.node, load.force;
 }
-void fields(Io& io, Load& load) {
+void visit_fields(Io& io, Load& load) {
   io.optional("node", NodeNames{load.node});
   io.defaulted("force_N", load.force.template head<2>());
   io.optional("moment_N_m", load.force.z());

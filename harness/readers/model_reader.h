@@ -20,12 +20,12 @@ struct Structure {
 };
 
 /// Reads the nodes of a planar model and the parts that connect them. Indices of new nodes follow
-/// those of `before`.
+/// those of `given_nodes`.
 /// @param model  the JSON object /model of the case
-/// @param before  existing nodes of the manipulator
+/// @param given_nodes  existing nodes of the manipulator
 /// @throws InputError  if a name is unknown or the geometry is impossible.
 [[nodiscard]] Structure read_structure(const JsonView& model,
-                                       const std::vector<solver::Node>& before);
+                                       const std::vector<solver::Node>& given_nodes);
 
 /// Reads the manipulator at /model/manipulator of a case.
 /// @throws InputError  if its geometry is meaningless.
@@ -51,7 +51,7 @@ struct MemberChain {
   std::optional<Eigen::Vector2d> arc_center;
   std::array<bool, 3> held{};  ///< supported motions (x, y, rotation) of all inner nodes
 
-  [[nodiscard]] bool needed() const { return arc_center || held[0] || held[1] || held[2]; }
+  [[nodiscard]] bool needs_chain() const { return arc_center || held[0] || held[1] || held[2]; }
 };
 
 /// Adds a chain of `member.elements` members in place of `member`, with unnamed intermediate nodes

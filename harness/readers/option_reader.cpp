@@ -26,7 +26,7 @@ solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
 
 std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
   if (!modal.has("modes"))
-    throw modal.error("a single 'ratio' requires 'modes' (number of modes with this ratio)");
+    throw modal.error("a single damping 'ratio' requires 'modes' (the number of modes)");
   const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
   if (known) return static_cast<std::size_t>(*known);
@@ -121,7 +121,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
     for (const char* key : {"links", "platform"})
       if (parameter.has(key))
         throw parameter[key].error(
-            "this property does not refer to links or to the platform; expected no selection");
+            "expected neither 'links' nor 'platform': this property does not refer to them");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -236,8 +236,8 @@ void read_prescribed_motions(const JsonView& analysis, const solver::Model& buil
   }
 }
 
-void read_history(const JsonView& analysis, const solver::Model& built,
-                  solver::large_motion::LargeMotionModel& large_motion) {
+void read_motion_conditions(const JsonView& analysis, const solver::Model& built,
+                            solver::large_motion::LargeMotionModel& large_motion) {
   large_motion.mass_damping = analysis.get("mass_damping_per_s", 0.0);
   large_motion.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
   if (const auto ramp = analysis.find("load_ramp_s")) {

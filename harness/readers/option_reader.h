@@ -56,12 +56,12 @@ void limit_time_step_count(const JsonView& step, double duration);
 [[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
 
 /// Add prescribed motions ("drives") to a model of large statics or large motion. For large motion,
-/// `read_history` adds damping, load history and initial velocities.
+/// `read_motion_conditions` adds damping, load history and initial velocities.
 /// @throws InputError  if a name is unknown.
 void read_prescribed_motions(const JsonView& analysis, const solver::Model& built,
                              solver::large_motion::LargeMotionModel& large_motion);
-void read_history(const JsonView& analysis, const solver::Model& built,
-                  solver::large_motion::LargeMotionModel& large_motion);
+void read_motion_conditions(const JsonView& analysis, const solver::Model& built,
+                            solver::large_motion::LargeMotionModel& large_motion);
 
 /// Reads a law of motion, which returns position, velocity and acceleration at a time.
 [[nodiscard]] solver::large_motion::TimeFunction read_motion_law(const JsonView& law);

@@ -117,8 +117,7 @@ class Sides {
     const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
     std::vector<Edge::Piece>& there = sides_[ends];
     if (!there.empty()) {
-      const std::vector<solver::Index> back(there.front().nodes.rbegin(),
-                                            there.front().nodes.rend());
+      const std::vector back(there.front().nodes.rbegin(), there.front().nodes.rend());
       if (there.size() > 1 || back != piece.nodes)
         throw block.error(
             "two blocks with a common side require the same nodes on it (their cells, "
@@ -269,10 +268,9 @@ void require_connected_nodes(const JsonView& model, std::size_t first,
   const auto unnamed = [&](solver::Index node) {
     return node >= 0 && structure.nodes[solver::to_size(node)].name.empty();
   };
-  const bool meshed =
-      std::ranges::any_of(structure.triangles, [&](const solver::Triangle& triangle) {
-        return std::ranges::any_of(triangle.nodes, unnamed);
-      });
+  const bool meshed = std::ranges::any_of(structure.triangles, [&](const auto& triangle) {
+    return std::ranges::any_of(triangle.nodes, unnamed);
+  });
   for (std::size_t i = first; meshed && i < structure.nodes.size(); ++i) {
     if (held[i]) continue;
     const Eigen::Vector2d& here = structure.nodes[i].position;

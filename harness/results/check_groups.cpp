@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kSeverity = {0, 4, 5, 3, 2, 3};
 
 int severity(const Check& check) {
-  const bool is_known = check.verdict == Verdict::pass && check.known_discrepancy();
+  const bool is_known = check.verdict == Verdict::pass && check.is_known_discrepancy();
   return is_known ? 1 : kSeverity.at(static_cast<std::size_t>(check.verdict));
 }
 
@@ -31,7 +31,7 @@ double beyond(const Check& check) {
 
 }  // namespace
 
-double share_of_tolerance(const Check& check) {
+double difference_over_tolerance(const Check& check) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Number judged = judged_number(check);
   if (!check.tolerance || !judged) return infinity;
@@ -52,18 +52,18 @@ double size_of_difference(const Check& check) {
   return std::abs(check.difference.value_or(target) - target);
 }
 
-bool worse(const Check& a, const Check& b) {
+bool is_worse_than(const Check& a, const Check& b) {
   if (severity(a) != severity(b)) return severity(a) > severity(b);
-  if (a.known_discrepancy() && b.known_discrepancy())
+  if (a.is_known_discrepancy() && b.is_known_discrepancy())
     return size_of_difference(a) > size_of_difference(b);
-  const double share_a = share_of_tolerance(a), share_b = share_of_tolerance(b);
+  const double share_a = difference_over_tolerance(a), share_b = difference_over_tolerance(b);
   if (share_a != share_b) return share_a > share_b;
   return beyond(a) > beyond(b);  // if both limits are zero, the fractions are equal
 }
 
 const Check& CheckGroup::worst() const {
-  return **std::ranges::min_element(checks,
-                                    [](const Check* a, const Check* b) { return worse(*a, *b); });
+  return **std::ranges::min_element(
+      checks, [](const Check* a, const Check* b) { return is_worse_than(*a, *b); });
 }
 
 std::vector<CheckGroup> group_checks(const Run& run) {

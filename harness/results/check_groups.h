@@ -12,7 +12,7 @@ namespace trammel::results {
 /// tolerance is a range, the result is the distance of the difference from the middle of the range,
 /// divided by half of the range's width. If the check is a bound, the computed value replaces the
 /// difference.
-[[nodiscard]] double share_of_tolerance(const Check& check);
+[[nodiscard]] double difference_over_tolerance(const Check& check);
 
 /// Returns the magnitude of a check's difference, or |ratio - 1| if the check measures a ratio.
 [[nodiscard]] double size_of_difference(const Check& check);
@@ -21,7 +21,7 @@ namespace trammel::results {
 /// descending severity are: error, fail, not run or not given, recorded without judgment, known
 /// discrepancy, pass. Of two known discrepancies, the one with the larger difference is more
 /// severe. Otherwise the larger `share_of_tolerance` is more severe.
-[[nodiscard]] bool worse(const Check& a, const Check& b);
+[[nodiscard]] bool is_worse_than(const Check& a, const Check& b);
 
 /// Checks of one run that have the same name and the same quantity, in the order of the run.
 struct CheckGroup {

@@ -50,10 +50,10 @@ struct CostSetting {
   bool pareto_optimal = false;
 
   /// Returns true if the error and the time of the setting were measured.
-  [[nodiscard]] bool measured() const { return status == "measured"; }
+  [[nodiscard]] bool is_measured() const { return status == "measured"; }
   /// Returns true if the setting failed, diverged or timed out. The caption of the figure of error
   /// and time states the number of such settings.
-  [[nodiscard]] bool without_result() const {
+  [[nodiscard]] bool has_no_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }
 };
@@ -97,7 +97,7 @@ struct CostStudy {
   std::map<std::string, std::string> references;
 
   /// Returns the error of a setting in the norm of the cost study.
-  [[nodiscard]] Number error(const CostSetting& setting) const;
+  [[nodiscard]] Number error_of(const CostSetting& setting) const;
 };
 
 struct CostStudies {

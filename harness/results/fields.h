@@ -75,18 +75,18 @@ constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member
 }
 
 template <class Struct, class Member>
-constexpr Field<Struct, Member> stored(const char* key, Member Struct::*member) {
+constexpr Field<Struct, Member> not_in_summary(const char* key, Member Struct::*member) {
   return {key, member, Presence::stored};
 }
 template <class Struct, class Member>
-constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*member) {
+constexpr Field<Struct, Member> only_in_store(const char* key, Member Struct::*member) {
   return {key, member, Presence::store_only};
 }
 
 /// Declares a field that is omitted if it equals the default computed from the preceding fields.
 template <class Struct, class Member>
-constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*member,
-                                           Member (*value)(const Struct& fields_before)) {
+constexpr UsualField<Struct, Member> omitted_if_default(
+    const char* key, Member Struct::*member, Member (*value)(const Struct& fields_before)) {
   return {key, member, value};
 }
 
@@ -121,8 +121,8 @@ inline constexpr None kKeyMember{};
   BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
 #define TRAMMEL_ONE_REQUIRED(_, none, member) required(#member, &S::member)
 #define TRAMMEL_ONE_OPTIONAL(_, none, member) optional(#member, &S::member)
-#define TRAMMEL_ONE_STORED(_, none, member) stored(#member, &S::member)
-#define TRAMMEL_ONE_STORE_ONLY(_, none, member) store_only(#member, &S::member)
+#define TRAMMEL_ONE_STORED(_, none, member) not_in_summary(#member, &S::member)
+#define TRAMMEL_ONE_STORE_ONLY(_, none, member) only_in_store(#member, &S::member)
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a member cannot be in parentheses
 #define TRAMMEL_KEY(Struct, member) \
   template <>                       \
@@ -188,27 +188,27 @@ T from_json(const Json& json) {
 namespace detail {
 
 template <class Struct, class Member>
-bool is_left_out(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                 Form form) {
+bool is_omitted(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                Form form) {
   if (field.presence == Presence::required) return false;
   return (field.presence == Presence::stored && form == Form::summary) ||
          (field.presence == Presence::store_only && form != Form::store) ||
          is_empty(value.*field.member);
 }
 template <class Struct, class Member>
-bool is_left_out(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                 Form) {
+bool is_omitted(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                Form) {
   return value.*field.member == field.usual(value);
 }
 
 template <class Struct, class Member>
-void set_absent(const Field<Struct, Member>& field, const Place& place,
-                std::type_identity_t<Struct>&) {
+void set_default_if_absent(const Field<Struct, Member>& field, const Place& place,
+                           std::type_identity_t<Struct>&) {
   if (field.presence == Presence::required) place.fail("a value, found nothing");
 }
 template <class Struct, class Member>
-void set_absent(const UsualField<Struct, Member>& field, const Place&,
-                std::type_identity_t<Struct>& value) {
+void set_default_if_absent(const UsualField<Struct, Member>& field, const Place&,
+                           std::type_identity_t<Struct>& value) {
   value.*field.member = field.usual(value);
 }
 
@@ -219,7 +219,7 @@ Json object_to_json(const T& value, Form form) {
   // Memory is reserved, because a growing vector copies all members.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
-    if (!is_left_out(field, value, form))
+    if (!is_omitted(field, value, form))
       members.emplace_back(field.key, to_json(value.*field.member, form));
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);
@@ -233,7 +233,7 @@ void object_from_json(const Json& json, const Place& place, T& value) {
     const Place member_place{&place, field.key};
     const auto found = json.find(field.key);
     if (found != json.end()) return from_json(*found, member_place, value.*field.member);
-    set_absent(field, member_place, value);
+    set_default_if_absent(field, member_place, value);
   };
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }
@@ -249,13 +249,12 @@ inline std::uint64_t bits_two_before(const double* numbers, std::size_t i) {
 /// Returns the differences between the bits of each number and of the number two positions earlier.
 /// The lowest bytes of all differences come first, because runs of similar bytes compress best.
 template <class Entry>
-Json packed(const std::vector<Entry>& values) {
+Json pack(const std::vector<Entry>& values) {
   const auto* const numbers = reinterpret_cast<const double*>(values.data());
   const std::size_t count = values.size() * sizeof(Entry) / kBytes;
   std::vector<std::uint8_t> bytes(count * kBytes);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t step =
-        std::bit_cast<std::uint64_t>(numbers[i]) - bits_two_before(numbers, i);
+    const auto step = std::bit_cast<std::uint64_t>(numbers[i]) - bits_two_before(numbers, i);
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
@@ -282,7 +281,7 @@ void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
 template <class Entry>
 Json list_to_json(const std::vector<Entry>& values, Form form) {
   if constexpr (is_packed<Entry>)
-    if (form == Form::store) return packed(values);
+    if (form == Form::store) return pack(values);
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
@@ -327,8 +326,7 @@ const char* name_of(Enum value) {
 
 template <class Enum>
 void enum_from_json(const Json& json, const Place& place, Enum& value) {
-  const auto name =
-      std::ranges::find_if(kNames<Enum>, [&](const char* word) { return json == word; });
+  const auto name = std::ranges::find_if(kNames<Enum>, [&](const char* w) { return json == w; });
   if (name == kNames<Enum>.end())
     place.fail(fmt::format("one of {}", fmt::join(kNames<Enum>, " ")));
   value = static_cast<Enum>(name - kNames<Enum>.begin());

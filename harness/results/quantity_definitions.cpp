@@ -53,7 +53,8 @@ const QuantityDefinition* find_quantity_definition(const std::string& name,
                                                    const std::string& analysis) {
   static const auto by_head = [] {
     std::map<std::string, std::vector<const QuantityDefinition*>> table;
-    for (const QuantityDefinition& one : quantity_definitions()) table[one.head()].push_back(&one);
+    for (const QuantityDefinition& one : quantity_definitions())
+      table[one.base_name()].push_back(&one);
     return table;
   }();
   const auto found = by_head.find(name.substr(0, name.find(':')));

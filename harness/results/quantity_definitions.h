@@ -13,7 +13,7 @@ struct QuantityDefinition {
   std::vector<std::string> analyses;
   std::string meaning;
 
-  [[nodiscard]] std::string head() const { return name.substr(0, name.find(':')); }
+  [[nodiscard]] std::string base_name() const { return name.substr(0, name.find(':')); }
   [[nodiscard]] bool belongs_to_analysis(const std::string& analysis) const;
 };
 

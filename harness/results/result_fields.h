@@ -47,10 +47,11 @@ inline std::string default_measure(const Check& check) {
   return check.expected ? "relative" : "bound";
 }
 TRAMMEL_FIELDS(Check, TRAMMEL_REQUIRED(name, quantity), TRAMMEL_OPTIONAL(index, computed, expected),
-               usual("measure", &S::measure, default_measure),
-               usual("difference", &S::difference, difference_of),
-               TRAMMEL_REQUIRED(tolerance, why, verdict), usual("unit", &S::unit, default_unit),
-               TRAMMEL_OPTIONAL(expectation), usual("role", &S::role, default_role),
+               omitted_if_default("measure", &S::measure, default_measure),
+               omitted_if_default("difference", &S::difference, difference_of),
+               TRAMMEL_REQUIRED(tolerance, why, verdict),
+               omitted_if_default("unit", &S::unit, default_unit), TRAMMEL_OPTIONAL(expectation),
+               omitted_if_default("role", &S::role, default_role),
                TRAMMEL_OPTIONAL(title, message, statistic, reference, against_variant,
                                 against_quantity));
 TRAMMEL_FIELDS(Convergence,
@@ -109,8 +110,8 @@ inline Json to_json(const harness::Quantities& quantities, Form form) {
   for (const auto& [name, quantity] : quantities) {
     if (form == Form::store) {
       json.push_back(name);
-      json.push_back(detail::packed(quantity.values));
-      json.push_back(detail::packed(quantity.roundoff));
+      json.push_back(detail::pack(quantity.values));
+      json.push_back(detail::pack(quantity.roundoff));
     } else if (form == Form::text || quantity.values.size() <= kSummaryEntries) {
       json.get_ref<Json::object_t&>().emplace_back(name, to_json(quantity.values, form));
     }

@@ -103,8 +103,7 @@ void complete(CaseInfo& info) {
 
 template <class Entry>
 const Entry* find_id(const std::vector<Entry>& entries, const std::string& id) {
-  const auto found =
-      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.id == id; });
+  const auto found = std::ranges::find_if(entries, [&](const Entry& e) { return e.id == id; });
   return found == entries.end() ? nullptr : &*found;
 }
 
@@ -188,7 +187,7 @@ void give_texts(Json& json, const SharedTexts& shared) {
     }
 }
 
-void complete(Results& results) {
+void complete_and_validate(Results& results) {
   const Place root;
   if (results.format != 1 && results.format != 2) Place{&root, "format"}.fail("1 or 2");
   for (CaseInfo& info : results.cases) complete(info);
@@ -226,7 +225,7 @@ bool CoverageRow::is_verified() const {
 Results read_results(Json json) {
   for (const SharedTexts& shared : kSharedTexts) give_texts(json, shared);
   auto results = from_json<Results>(json);
-  complete(results);
+  complete_and_validate(results);
   return results;
 }
 
@@ -250,11 +249,11 @@ const std::vector<double>* Run::quantity(const std::string& name) const {
   return found == quantities.end() ? nullptr : &found->second.values;
 }
 
-Number Run::half_width(const std::string& name, std::size_t index) const {
+Number Run::error_half_width(const std::string& name, std::size_t index) const {
   const std::vector<double>* values = quantity(name);
   const ErrorEstimate* found = errors ? errors->find(name) : nullptr;
   if (found == nullptr || values == nullptr || index >= values->size()) return {};
-  return found->half_width(index, (*values)[index]);
+  return found->error_half_width(index, (*values)[index]);
 }
 
 const ErrorEstimate* ErrorEstimates::find(const std::string& quantity) const {
@@ -262,7 +261,7 @@ const ErrorEstimate* ErrorEstimates::find(const std::string& quantity) const {
   return found == quantities.end() ? nullptr : &*found;
 }
 
-Number ErrorEstimate::half_width(std::size_t index, double value) const {
+Number ErrorEstimate::error_half_width(std::size_t index, double value) const {
   const Number error = relative.size() == 1      ? relative.front()
                        : index < relative.size() ? relative[index]
                                                  : Number();
@@ -270,7 +269,7 @@ Number ErrorEstimate::half_width(std::size_t index, double value) const {
   return *error * std::max(std::abs(value), scale.value_or(0));
 }
 
-std::size_t Cost::work() const {
+std::size_t Cost::counted_work() const {
   std::size_t sum = 0;
   for (const auto& counter : counters) sum += counter.second;
   return sum;
@@ -299,7 +298,7 @@ Number ErrorNorms::get(const std::string& norm) const {
   return norm == "max" ? max : norm == "rms" ? rms : mean;
 }
 
-Number CostStudy::error(const CostSetting& setting) const {
+Number CostStudy::error_of(const CostSetting& setting) const {
   return setting.errors ? setting.errors->get(norm) : Number();
 }
 
@@ -315,7 +314,7 @@ std::string to_string(Verdict verdict) {
 }
 std::string verdict_text(const Check& check) {
   const bool changed = check.verdict == Verdict::fail;
-  if (check.known_discrepancy() && (changed || check.verdict == Verdict::pass))
+  if (check.is_known_discrepancy() && (changed || check.verdict == Verdict::pass))
     return changed ? "changed discrepancy" : "known discrepancy";
   if (check.verdict == Verdict::recorded) return "not judged";
   std::string text = to_string(check.verdict);

@@ -238,7 +238,7 @@ inline constexpr std::size_t kSummaryEntries = 1;
 
 /// Sets missing titles to the ids, and requires that the results are consistent.
 /// @throws std::runtime_error  with the JSON pointer of an inconsistent value.
-void complete(Results& results);
+void complete_and_validate(Results& results);
 
 /// Reads results, except for data of runs that only the store contains.
 /// @throws std::runtime_error  with the JSON pointer of an absent or inconsistent value, or of a

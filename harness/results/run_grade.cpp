@@ -43,7 +43,7 @@ const Check* decisive_check(const Run& run) {
   for (const Check& check : run.checks) {
     if (check.verdict != Verdict::pass && check.verdict != Verdict::fail) continue;
     if (decisive == nullptr || rank(check) > rank(*decisive) ||
-        (rank(check) == rank(*decisive) && worse(check, *decisive)))
+        (rank(check) == rank(*decisive) && is_worse_than(check, *decisive)))
       decisive = &check;
   }
   return decisive;

@@ -59,7 +59,7 @@ struct Check {
 
   /// Returns true if the case declares the difference between computed and expected value to be a
   /// known discrepancy.
-  [[nodiscard]] bool known_discrepancy() const {
+  [[nodiscard]] bool is_known_discrepancy() const {
     return expectation == Expectation::known_discrepancy;
   }
 };
@@ -210,7 +210,7 @@ struct Cost {
   std::vector<harness::EvaluationTime> timings;
 
   /// Returns the counted work, which is the sum of all counters.
-  [[nodiscard]] std::size_t work() const;
+  [[nodiscard]] std::size_t counted_work() const;
 };
 
 /// One physical effect in a run, such as rotary inertia, and the reason why it is active or not.
@@ -239,7 +239,7 @@ struct ErrorEstimate {
   std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
 
   /// Returns the half-width of the error band about one of the quantity's values [unit].
-  [[nodiscard]] Number half_width(std::size_t index, double value) const;
+  [[nodiscard]] Number error_half_width(std::size_t index, double value) const;
 };
 
 /// Mesh and time step tried in the search for a requested accuracy.
@@ -342,7 +342,7 @@ struct Run {
   [[nodiscard]] const std::vector<double>* quantity(const std::string& name) const;
   /// Returns the half-width of the band of the discretization error about an entry [unit]; missing
   /// without an estimate.
-  [[nodiscard]] Number half_width(const std::string& name, std::size_t index) const;
+  [[nodiscard]] Number error_half_width(const std::string& name, std::size_t index) const;
 };
 
 /// Returns the difference between `computed` and `expected`; missing if the check is a bound.

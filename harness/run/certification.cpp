@@ -61,9 +61,9 @@ void compare(const Entries& first, const Configuration& other, Certification& re
     bool flipped = false;
     if (row.is_run()) {
       is_known = row.before != nullptr;
-      ends_equally = row.in_both() && row.before->verdict == row.after->verdict;
+      ends_equally = row.is_in_both() && row.before->verdict == row.after->verdict;
       flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
-    } else if (is_known && !row.in_both()) {  // listed only if the runs end equally
+    } else if (is_known && !row.is_in_both()) {  // listed only if the runs end equally
       ++total.missing;
       flipped = ends_equally;
     } else if (is_known) {

@@ -283,7 +283,7 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
     complete_counterpart(place["shown_by"][i], catalogue, item.shown_by[i]);
   for (const auto& entry : place.entries("claims")) require_member(entry.second, claims, "claim");
   if (item.shown_by.empty() && item.claims.empty() && item.reason.empty())
-    throw place.error("an item requires 'shown_by', 'claims' or 'reason'");
+    throw place.error("an item of the paper requires 'shown_by', 'claims' or 'reason'");
   return item;
 }
 
@@ -330,7 +330,7 @@ Document load_claims() {
   return document;
 }
 
-std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& catalogue) {
+std::vector<Case> cases_used_by(const Document& claim_set, const std::vector<Case>& catalogue) {
   std::vector<JsonView> interpretations;
   for (const auto& claim : JsonView(claim_set)["claims"].entries())
     for (const auto& item : claim.second.entries("interpretations"))

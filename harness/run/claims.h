@@ -20,8 +20,8 @@ namespace trammel::harness {
 /// Returns the cases that the interpretations of claims use. An interpretation names a case, or a
 /// check or reference that occurs in the case.
 /// @param catalogue  all cases of the catalogue
-[[nodiscard]] std::vector<Case> cases_of(const Document& claim_set,
-                                         const std::vector<Case>& catalogue);
+[[nodiscard]] std::vector<Case> cases_used_by(const Document& claim_set,
+                                              const std::vector<Case>& catalogue);
 
 /// Evaluates claims. Interpretations of cases that were not run are ignored. The verdict is "not
 /// measured" if no interpretation remains, or if a number of a computed case is missing.

@@ -110,7 +110,7 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
   found.noise = kRoundoff * scale;
   for (const results::Run* run : runs) {
     found.values.push_back((*run->quantity(name))[i]);
-    found.errors.push_back(run->half_width(name, i));
+    found.errors.push_back(run->error_half_width(name, i));
     const double roundoff =
         stated_roundoff(*run, name, i) * std::abs(found.values.back().value_or(0));
     found.noise = std::max(found.noise, roundoff);
@@ -239,7 +239,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
         rows.back().modes = {from_one(match.a)};
         rows.back().values = {first};
         rows.back().last = {Number()};
-        rows.back().errors = {runs.front()->half_width("frequency_Hz", match.a.front())};
+        rows.back().errors = {runs.front()->error_half_width("frequency_Hz", match.a.front())};
         rows.back().alike = {1.0};
       }
       ComparedModes& found = rows.at(row++);
@@ -248,7 +248,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
       const double low = there ? both->second.frequency[match.b.front()] : 0;
       const double high = there ? both->second.frequency[match.b.back()] : 0;
       found.values.push_back(there ? Number(low) : Number());
-      found.errors.push_back(there ? runs[s]->half_width("frequency_Hz", match.b.front())
+      found.errors.push_back(there ? runs[s]->error_half_width("frequency_Hz", match.b.front())
                                    : Number());
       found.last.push_back(high - low > 1e-6 * high ? Number(high) : Number());
       found.alike.push_back(there ? Number(match.overlap) : Number());
@@ -290,7 +290,7 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
     add_entries(*runs[s], found.name, other);
     std::set<std::string> checks;
     for (const DiffRow& row : pair_entries(first, other)) {
-      if (!row.in_both() || row.before->verdict == row.after->verdict) continue;
+      if (!row.is_in_both() || row.before->verdict == row.after->verdict) continue;
       const std::string check = row.is_run() ? "" : row.after->check->name;
       if (!row.is_run() && (checks.size() >= 3 || !checks.insert(check).second)) continue;
       found.remarks.push_back(
@@ -502,7 +502,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
       for (std::size_t s = 0; s < sides.size(); ++s) {
         errors[s].merge(errors_of(name, runs[s]));
         comparison.sides[s].cpu_s += runs[s].cost.cpu_s;
-        comparison.sides[s].work += runs[s].cost.work();
+        comparison.sides[s].work += runs[s].cost.counted_work();
       }
       found = compare_runs(name, loaded, labels, documents,
                            sides.front().results.case_info(runs.front().case_id));

@@ -42,7 +42,7 @@ struct DiffRow {
   std::string name;
   const Entry *before = nullptr, *after = nullptr;
 
-  [[nodiscard]] bool in_both() const { return before != nullptr && after != nullptr; }
+  [[nodiscard]] bool is_in_both() const { return before != nullptr && after != nullptr; }
   [[nodiscard]] bool is_run() const { return (before ? before : after)->check == nullptr; }
 };
 

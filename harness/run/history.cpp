@@ -146,7 +146,7 @@ void add_call(Database& database, const results::Results& results) {
   for (const results::Run& run : results.runs) {
     checks += run.checks.size();
     failures += static_cast<std::size_t>(std::ranges::count_if(run.checks, is_failure));
-    work += run.cost.work();
+    work += run.cost.counted_work();
     cpu_s += run.cost.cpu_s;
   }
   const bool all_new =
@@ -189,7 +189,7 @@ void write_entries(Database& database, const results::Results& results, std::int
   for (const results::Run& run : results.runs)  // an earlier call recorded a stored run
     if (!run.was_stored)
       insert(name_of(run), "INSERT INTO cost SELECT ?, id, ?, ? FROM name WHERE text = ?",
-             {run.cost.cpu_s, run.cost.work()});
+             {run.cost.cpu_s, run.cost.counted_work()});
 }
 
 std::vector<HistoryCall> calls_of(Database& database) {
@@ -212,7 +212,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
   std::vector<HistoryChange> changes;
   const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
   for (const DiffRow& row : pair_entries(before, now)) {
-    if (!row.in_both() || !row.after->differs(*row.before)) continue;
+    if (!row.is_in_both() || !row.after->differs(*row.before)) continue;
     std::int64_t first = 0;  // first call of the current uninterrupted difference; 0: none yet
     for (const auto& [call, entry] : courses.at(row.name)) {
       const bool differs = call > since && entry.differs(*row.before);

@@ -113,7 +113,7 @@ std::string case_hash(const Case& given) {
 results::Results collect_results(std::vector<Run> runs, const std::vector<Case>& cases,
                                  const References& references, const std::filesystem::path& store) {
   results::Results out;
-  out.environment = results::from_json<results::Environment>(environment());
+  out.environment = results::from_json<results::Environment>(build_and_machine_info());
   out.environment.stored_runs =
       static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
   std::ranges::transform(cases, std::back_inserter(out.cases), case_info);

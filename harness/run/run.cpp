@@ -283,7 +283,7 @@ bool evaluate_status_check(const Task& task, Run& run) {
 /// Adds a check that the ASME V&V 20 comparisons have the verdicts that the case records.
 void evaluate_validation_verdicts(const Check& check, Run& run) {
   if (check.validation_verdicts.empty()) return;
-  CheckResult result = start_check_result(check);
+  CheckResult result = create_check_result(check);
   result.name += ".validation";
   result.measure = "validation";
   result.reference.clear();

@@ -54,7 +54,7 @@ std::string uncompressed(const std::string& bytes) {
   std::string out(size <= kMaxBytes ? size : 0, '\0');
   const std::size_t written = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
   if (failed(written) || written != size)
-    throw std::runtime_error("the computation ended without an answer");
+    throw std::runtime_error("the computation ended without a result");
   return out;
 }
 
@@ -243,7 +243,7 @@ void remove_unused_files(const std::filesystem::path& store) {
 std::string machine_name() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return environment()["processor"].get<std::string>() + " of " + host.data();
+  return build_and_machine_info()["processor"].get<std::string>() + " of " + host.data();
 }
 
 }  // namespace trammel::harness

@@ -37,7 +37,7 @@ Json read_shard(const fs::path& folder) {
          "the names of computations");
   expect("selection", shard.contains("selection"), "the selection of cases");
   expect("program", shard.value("program", "") == program_hash(),
-         "this program, " + environment()["commit"].get<std::string>() + " (got " +
+         "this program, " + build_and_machine_info()["commit"].get<std::string>() + " (got " +
              shard.value("commit", "another one") + ")");
   return shard;
 }
@@ -89,7 +89,7 @@ void write_shard(const fs::path& folder, const Shard& shard, const Json& selecti
                                                {"of", shard.count},
                                                {"in_all", done.in_all},
                                                {"program", program_hash()},
-                                               {"commit", environment()["commit"]},
+                                               {"commit", build_and_machine_info()["commit"]},
                                                {"selection", selection},
                                                {"computations", done.names}}));
 }

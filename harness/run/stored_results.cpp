@@ -95,7 +95,7 @@ results::Results load_results(const fs::path& file) {
         std::to_string(missing) + " of " + std::to_string(results.runs.size()) +
         " runs have no series, drawings and studies, which are missing from the store " +
         results.store;
-  results::complete(results);
+  results::complete_and_validate(results);
   return results;
 }
 

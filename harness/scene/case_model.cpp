@@ -90,7 +90,7 @@ CaseModel read_case_model(const Document& document) {
     if (!model.has("nodes") || model["nodes"].size() == 0)
       throw model.error("the model is empty; expected 'manipulator' or 'nodes'");
   }
-  rethrow_as_input(document, [&] {
+  rethrow_as_input_error(document, [&] {
     const solver::Model bare =
         case_model.manipulator
             ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)

@@ -29,7 +29,7 @@ struct CaseModel {
   /// solution are not computed.
   bool estimates_large_displacement = false;
 
-  [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
+  [[nodiscard]] std::size_t path_point_count() const { return path ? motion.size() : 1; }
 };
 
 /// Reads the "model" of a case.

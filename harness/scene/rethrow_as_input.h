@@ -7,7 +7,7 @@ namespace trammel::harness {
 /// Calls `work` and returns its result.
 /// @throws InputError  (see `to_input_error`) if the solver throws ModelError for an invalid model.
 template <class Work>
-auto rethrow_as_input(const Document& document, const Work& work) {
+auto rethrow_as_input_error(const Document& document, const Work& work) {
   try {
     return work();
   } catch (const solver::ModelError& error) {

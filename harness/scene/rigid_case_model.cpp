@@ -20,7 +20,7 @@ solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
        {"members", "plates", "rigid_bodies", "point_masses", "springs", "supports"}) {
     const auto parts = model.find(kind);
     if (!parts || parts->size() == 0) continue;
-    throw parts->error("this analysis supports a manipulator without other parts only");
+    throw parts->error("this analysis does not support parts other than the manipulator");
   }
   if (const auto loads = model.find("loads")) {
     const auto names = loads->entries();

@@ -110,14 +110,14 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
 
 solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
-    const solver::TransientOptions& options, const solver::large_motion::Observer& look) {
+    const solver::TransientOptions& options, const solver::large_motion::Observer& observe) {
   solver::large_motion::State state = system.reference_state();
   solver::large_motion::IntegrationSummary summary;
   summary.outcome =
       make_consistent(system, state, tracking_start(case_model, system), options.step);
   if (!summary.outcome.solved()) return summary;
   const solver::large_motion::ConstrainedSystem& equations = system;
-  return integrate(equations, state, options, look);
+  return integrate(equations, state, options, observe);
 }
 
 }  // namespace trammel::harness

@@ -37,6 +37,6 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
 /// Integrates the motion from the model's pose, with the initial velocities of the rigid twin.
 [[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
-    const solver::TransientOptions& options, const solver::large_motion::Observer& look);
+    const solver::TransientOptions& options, const solver::large_motion::Observer& observe);
 
 }  // namespace trammel::harness

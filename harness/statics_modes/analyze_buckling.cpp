@@ -31,8 +31,7 @@ void record_forces(const JsonView& analysis, const std::string& mode, double fac
 StepResult analyze_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
   const solver::System system = solver::assemble(build_model(case_model, step));
-  const solver::BucklingSolution buckling =
-      solver::solve_buckling(system, read_buckling_options(analysis));
+  const auto buckling = solver::solve_buckling(system, read_buckling_options(analysis));
   StepResult result{buckling.outcome, buckling.counters, buckling.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;

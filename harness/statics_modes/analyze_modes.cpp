@@ -27,7 +27,7 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
 void require_absent(const JsonView& analysis, const char* key, const char* other_key,
                     const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
-  throw analysis[key].error(std::string("not allowed with '") + other_key + "': " + reason);
+  throw analysis[key].error(std::string("this key excludes '") + other_key + "': " + reason);
 }
 
 /// Returns the system of equations, reduced to fixed-interface modes if the analysis has the key
@@ -38,7 +38,7 @@ solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
   require_absent(analysis, "count_below_Hz", "reduction",
                  "the count includes all modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening))
-    throw analysis["reduction"].error("not allowed with geometric stiffening ('prestressed')");
+    throw analysis["reduction"].error("this key excludes geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
     throw analysis["reduction"].error(
         "this analysis requires a reduction by 'fixed_interface_modes' (got 'modes')");
@@ -211,8 +211,7 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
   warn_of_taper(system.model, result.warnings);
   warn_of_wave_length(system, modes.frequency.maxCoeff(), result.warnings);
   if (analysis.has("count_below_Hz")) {
-    const std::optional<solver::Index> below =
-        solver::sturm_count(system, analysis.number("count_below_Hz"));
+    const auto below = solver::sturm_count(system, analysis.number("count_below_Hz"));
     record.add_or_missing("mode_count_below", "",
                           below ? static_cast<double>(*below) : std::nan(""));
   }
@@ -287,7 +286,7 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
     require_absent(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
-    if (!case_model.path) throw analysis["track_shapes"].error("requires a trajectory (got none)");
+    if (!case_model.path) throw analysis["track_shapes"].error("this key requires 'trajectory'");
   } else if (follows_pose(analysis, case_model)) {
     return analyze_modes_of_poses(analysis, case_model, draw, record);
   }

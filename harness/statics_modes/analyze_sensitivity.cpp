@@ -80,8 +80,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {
   const solver::Index count = found.frequency.size();
-  const FrequencyDifferences differences =
-      differences_of(std::nullopt, case_model, named.parameter, count);
+  const auto differences = differences_of(std::nullopt, case_model, named.parameter, count);
   if (!differences.outcome.solved()) {
     result.outcome = differences.outcome;
     return;

@@ -41,7 +41,8 @@ StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::si
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!solution.outcome.solved()) return result;
   const double roundoff = std::pow(10.0, -solution.estimated_correct_digits);
-  const double of_forces = std::min(1.0, roundoff + solver::force_roundoff(system, solution.q));
+  const double of_forces =
+      std::min(1.0, roundoff + solver::relative_force_roundoff(system, solution.q));
   const solver::Model& model = system.model;
   std::vector<std::string> without;
   if (case_model.path) without = {"bending_stress_Pa"};

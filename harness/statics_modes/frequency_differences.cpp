@@ -44,7 +44,7 @@ void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter,
       meet(length ? &design.geometry.distal[i]
                   : solver::detail::link_property(design.distal[i], kind));
   }
-  if (parameter.platform) meet(solver::detail::number(design.platform, kind));
+  if (parameter.platform) meet(solver::detail::property(design.platform, kind));
 }
 
 double side(const std::array<Vector2d, 3>& triangle) {
@@ -163,10 +163,9 @@ class Differences {
 
   void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
     for (Index n = 0; n < count_; ++n) {
-      const double difference =
-          std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
-      if (!(difference < error_estimate_[n])) continue;
-      error_estimate_[n] = difference;
+      const double change = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
+      if (!(change < error_estimate_[n])) continue;
+      error_estimate_[n] = change;
       result_.derivative[n] = next[n];
     }
   }

@@ -139,8 +139,7 @@ BeamTestResult run_beam_test(const BeamTest& test) {
   const auto state = [&](const Eigen::Vector2d& p) {
     return mms::evaluate(problem, kBeamAxis.dot(p));
   };
-  solver::System system =
-      solver::assemble(beam_model(test, mms::evaluate(problem, problem.length)));
+  auto system = solver::assemble(beam_model(test, mms::evaluate(problem, problem.length)));
   solver::add_line_load(system, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
     const auto s = state(p);
     const Eigen::Vector2d force = to_world(s.axial_load, s.transverse_load);

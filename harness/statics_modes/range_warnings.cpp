@@ -141,10 +141,10 @@ void warn_of_redundant_constraints(Eigen::Index redundant, std::vector<Warning>&
                          "forces are one of many solutions"});
 }
 
-void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings) {
+void warn_of_roundoff(double frequency_roundoff, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 1e-3;
-  if (!(of_frequency > kNoticed)) return;
-  add_warning(warnings, {"the relative round-off error of a frequency", of_frequency, "",
+  if (!(frequency_roundoff > kNoticed)) return;
+  add_warning(warnings, {"the relative round-off error of a frequency", frequency_roundoff, "",
                          "very different stiffnesses cause this error; 'axial': 'inextensible' or "
                          "rigid bodies in place of stiff parts reduce it"});
 }

@@ -51,8 +51,8 @@ inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 
 /// Warns if the round-off error of a frequency exceeds a thousandth of the frequency.
-/// @param of_frequency  relative round-off error
-void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings);
+/// @param frequency_roundoff  relative round-off error
+void warn_of_roundoff(double frequency_roundoff, std::vector<Warning>& warnings);
 
 /// Warns of redundant constraints among supports, rigid bodies and inextensible members.
 /// Equilibrium does not determine how they share the loads. The reported forces are one of many

@@ -11,9 +11,9 @@ std::string mode_label(solver::Index mode, double number, const char* unit) {
 }
 
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
-                        bool several, Recorder& record, const Eigen::VectorXd& roundoff) {
+                        bool several_states, Recorder& record, const Eigen::VectorXd& roundoff) {
   for (solver::Index i = 0; i < frequency.size(); ++i) {
-    const std::string item = several ? std::to_string(i + 1) : "";
+    const std::string item = several_states ? std::to_string(i + 1) : "";
     record.add("frequency_Hz", item, frequency[i], roundoff.size() > 0 ? roundoff[i] : -1);
     record.add("growth_rate_per_s", item, growth_rate[i]);
   }
@@ -39,8 +39,8 @@ StepResult analyze_path_points(
     const CaseModel& case_model, bool draw,
     const std::function<StepResult(std::size_t step, bool draw)>& analyze_step) {
   StepResult all;
-  const std::size_t stride = std::max<std::size_t>(case_model.steps() / 24, 1);
-  for (std::size_t step = 0; step < case_model.steps(); ++step) {
+  const std::size_t stride = std::max<std::size_t>(case_model.path_point_count() / 24, 1);
+  for (std::size_t step = 0; step < case_model.path_point_count(); ++step) {
     StepResult found = analyze_step(step, draw && step % stride == 0);
     all.counters += found.counters;
     all.evidence.add(found.evidence);

@@ -55,7 +55,8 @@ inline constexpr solver::Index kMaxDrawnShapes = 12;
 /// equilibria, there is one quantity per mode, whose name includes the number of the mode.
 /// @param roundoff  relative round-off error of each frequency; empty if unknown
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
-                        bool several, Recorder& record, const Eigen::VectorXd& roundoff = {});
+                        bool several_states, Recorder& record,
+                        const Eigen::VectorXd& roundoff = {});
 
 /// Returns the outcome of one point of the path, with the number of the point in its reason.
 [[nodiscard]] solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,

@@ -23,16 +23,16 @@ struct Warning {
 
 /// Adds a warning. Of two warnings about the same quantity, for example at two points of a path,
 /// the larger value is kept.
-inline void add_warning(std::vector<Warning>& all, const Warning& one) {
+inline void add_warning(std::vector<Warning>& warnings, const Warning& warning) {
   const auto is_same = [&](const Warning& other) {
-    return other.quantity == one.quantity && other.meaning == one.meaning;
+    return other.quantity == warning.quantity && other.meaning == warning.meaning;
   };
-  Warning& same = find_or_add(all, is_same, one);
-  same.value = std::max(same.value, one.value);
+  Warning& same = find_or_add(warnings, is_same, warning);
+  same.value = std::max(same.value, warning.value);
 }
 
-inline void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {
-  for (const Warning& one : more) add_warning(all, one);
+inline void add_warnings(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
+  for (const Warning& one : more) add_warning(warnings, one);
 }
 
 }  // namespace trammel::harness

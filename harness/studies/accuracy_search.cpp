@@ -23,7 +23,7 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
 
 /// Returns a patch that keeps the times at which results are recorded if the time step changes.
 Json fixed_outputs(const Document& document) {
-  const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
+  const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   if (const auto sampling = output_sampling(document))
     return sampling_patch(document, sampling->intervals);
@@ -295,7 +295,7 @@ CostStudy cost_study_of_search(const Case& given, const std::string& variant,
       finest = finer->document;
   study.reference_solution = add(finest);
   study.reference_description = study.reference_solution->title;
-  const std::string kind = discretized_analysis(finest);
+  const std::string kind = inner_analysis_kind(finest);
   StudyOutput& output = study.outputs.front();
   output.scale.kind =
       kind == "modes" || kind == "buckling" ? Scale::Kind::entry : Scale::Kind::quantity;

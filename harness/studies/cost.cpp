@@ -28,7 +28,7 @@ std::vector<double> relative_errors(const std::vector<double>& found,
                                     const Scale& scale, double largest_of_all) {
   if (found.size() != reference_solution.size())
     throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
-                             " values, the number of the reference solution (got " +
+                             " values, as in the reference solution (got " +
                              std::to_string(found.size()) + ")");
   const double largest =
       scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
@@ -125,7 +125,7 @@ CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
 }
 
 bool is_computed(const CostSetting& setting) {
-  return setting.measured() || setting.status == "reference";
+  return setting.is_measured() || setting.status == "reference";
 }
 
 /// @param output  index of the output; empty: the largest error of all outputs
@@ -170,7 +170,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
   for (const double error : target_errors()) {
     results::CheapestSetting& best = all.emplace_back();
     best.error = error;
-    if (const auto point = cheapest(points, error)) best.setting = point->setting;
+    if (const auto point = fastest_within(points, error)) best.setting = point->setting;
     best.tied = tied_settings(points, error);
   }
   return all;
@@ -197,18 +197,18 @@ results::CostStudy describe(const CostStudy& study) {
 
 }  // namespace
 
-ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
+ErrorNorms error_norms(const Observations& computed, const Observations& reference_solution,
                        const Scale& scale) {
   double max = 0;
   std::size_t count = 0;
   double squares = 0, sum = 0, largest = 0;
   for (const std::vector<double>& values : reference_solution)
     largest = std::max(largest, max_abs(values));
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  for (std::size_t i = 0; i < computed.size(); ++i) {
     const std::vector<double> errors =
         reference_solution.at(i).empty()
-            ? found[i]
-            : relative_errors(found[i], reference_solution[i], scale, largest);
+            ? computed[i]
+            : relative_errors(computed[i], reference_solution[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
       max = solver::nan_max(max, size);
@@ -223,16 +223,16 @@ ErrorNorms error_norms(const Observations& found, const Observations& reference_
 }
 
 std::vector<CostPoint> cost_points(const results::CostStudy& study,
-                                   std::optional<std::size_t> output, std::size_t first,
-                                   std::size_t step) {
+                                   std::optional<std::size_t> output, std::size_t first_repeat,
+                                   std::size_t stride) {
   const std::vector<double>& baseline = study.settings[study.baseline].time->cpu_s;
   std::vector<CostPoint> points;
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
     const CostSetting& setting = study.settings[i];
-    if (!setting.measured()) continue;
+    if (!setting.is_measured()) continue;
     const auto error = error_of(setting, study.norm, output);
     if (!error || !(*error <= kDivergedError)) continue;
-    const RelativeTime time = relative_time(setting.time->cpu_s, baseline, first, step);
+    const RelativeTime time = time_ratio(setting.time->cpu_s, baseline, first_repeat, stride);
     points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
   }
   return points;
@@ -259,20 +259,20 @@ results::CostStudy measure_study(const CostStudy& study, const CostOptions& opti
   if (!is_computed(baseline))
     throw cannot(study.settings[study.baseline], "a baseline", baseline.reason);
   time_settings(study, measured, options, references, done, all);
-  derive_results(measured);
+  derive_ratios_and_front(measured);
   measured.references = references.hashes();
   measured.wall_s = watch.wall_s();
   return measured;
 }
 
-void derive_results(results::CostStudy& measured) {
+void derive_ratios_and_front(results::CostStudy& measured) {
   const CostSetting baseline = measured.settings[measured.baseline];
   std::vector<std::string> titles;
   for (CostSetting& setting : measured.settings) {
     titles.push_back(setting.title);
     setting.relative = setting.cpu_s / baseline.cpu_s;
     if (!setting.time) continue;
-    const RelativeTime relative = relative_time(setting.time->cpu_s, baseline.time->cpu_s);
+    const RelativeTime relative = time_ratio(setting.time->cpu_s, baseline.time->cpu_s);
     setting.relative = relative.median;
     setting.time->relative_low = relative.low;
     setting.time->relative_high = relative.high;

@@ -13,10 +13,10 @@
 namespace trammel::harness {
 
 /// Returns the norms of the relative errors over all observed entries.
-/// @param reference_solution  as many values as `found`; an empty list for a quantity whose values
-///     are errors themselves.
+/// @param reference_solution  as many values as `computed`; an empty list for a quantity whose
+///     values are errors themselves.
 /// @throws std::runtime_error  if the numbers of values differ, or a scale is zero.
-[[nodiscard]] results::ErrorNorms error_norms(const Observations& found,
+[[nodiscard]] results::ErrorNorms error_norms(const Observations& computed,
                                               const Observations& reference_solution,
                                               const Scale& scale);
 
@@ -29,7 +29,8 @@ inline constexpr double kDivergedError = 10;
 /// @param first, step  first repeat and step between repeats that are used, as in `relative_time`
 [[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study,
                                                  std::optional<std::size_t> output = 0,
-                                                 std::size_t first = 0, std::size_t step = 1);
+                                                 std::size_t first_repeat = 0,
+                                                 std::size_t stride = 1);
 
 struct CostOptions {
   TimingOptions timing;
@@ -43,7 +44,7 @@ struct CostOptions {
 
 /// Computes the times relative to the baseline setting, the Pareto front and the conclusion of a
 /// measured cost study.
-void derive_results(results::CostStudy& measured);
+void derive_ratios_and_front(results::CostStudy& measured);
 
 /// Returns the section "cost" of results.json, which contains the measured cost studies.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,

@@ -76,9 +76,8 @@ Document open_case(const JsonView& study, const JsonView& part) {
   }
   // A curve with another case starts from the base variant of that case.
   const bool own = part.has("case");
-  const std::string otherwise =
-      own ? kBaseVariant : study.get<std::string>("variant", kBaseVariant);
-  return patched(given, part.get<std::string>("variant", otherwise));
+  const std::string fallback = own ? kBaseVariant : study.get<std::string>("variant", kBaseVariant);
+  return patched(given, part.get<std::string>("variant", fallback));
 }
 
 void apply_patch(Document& document, const JsonView& patch) {

@@ -32,7 +32,7 @@ bool is_closed_form(const std::string& kind) {
 /// Returns true for equilibria of springs, bars and rigid bodies, which have no discretization
 /// error.
 bool is_exact(const Document& document) {
-  const std::string kind = discretized_analysis(document);
+  const std::string kind = inner_analysis_kind(document);
   const bool is_statics = kind == "statics" || kind == "large-statics" || kind == "buckling";
   return is_statics && document.value().contains("model") &&
          !document.value()["model"].contains("plates") &&
@@ -50,7 +50,7 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
 /// Returns the order of convergence in the element size; empty if nodal values are exact.
 std::optional<double> mesh_order(const Document& document) {
   const Json& model = document.value()["model"];
-  const std::string kind = discretized_analysis(document);
+  const std::string kind = inner_analysis_kind(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
   // Harmonic peaks and equilibria in large rotation converge with order 2, modes with order 4.
   // Buckling under gravity has order 2, because axial force is constant in each element.
@@ -74,7 +74,7 @@ std::optional<double> mesh_order(const Document& document) {
 /// the tolerance to which the error is proportional.
 double step_order(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
-  if (discretized_analysis(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
+  if (inner_analysis_kind(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
   // the largest step limits all steps, the error decreases only to 1/4, and not to 10^(-2/3). The
   // larger error is assumed.
@@ -177,7 +177,7 @@ bool is_estimated(const std::string& name) {
 class ErrorScales {
  public:
   ErrorScales(const Document& document, const AnalysisResult& own)
-      : own_(own.quantities), kind_(discretized_analysis(document)) {
+      : own_(own.quantities), kind_(inner_analysis_kind(document)) {
     if (!document.value().contains("model")) return;
     const ModelScales model = typical_scales(model_at_path_start(read_case_model(document)));
     scales_ = change_scales(own_, model);
@@ -223,8 +223,8 @@ class ErrorScales {
 
 }  // namespace
 
-bool is_same_result(const AnalysisResult& own, const AnalysisResult& other) {
-  return std::ranges::all_of(own.quantities, [&](const auto& item) {
+bool is_same_result(const AnalysisResult& result, const AnalysisResult& other) {
+  return std::ranges::all_of(result.quantities, [&](const auto& item) {
     const auto found = other.quantities.find(item.first);
     return !is_estimated(item.first) ||
            (found != other.quantities.end() && found->second.values == item.second.values);
@@ -232,11 +232,11 @@ bool is_same_result(const AnalysisResult& own, const AnalysisResult& other) {
 }
 
 std::optional<Companion> adjacent_refinement_level(const Document& document, ErrorSource source,
-                                                   Refine refine, const AnalysisResult* own) {
-  if (is_closed_form(discretized_analysis(document))) return std::nullopt;
+                                                   Refine refine, const AnalysisResult* result) {
+  if (is_closed_form(inner_analysis_kind(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
-  const bool has_step = own != nullptr && own->quantities.contains("largest_step_s");
-  const double step = has_step ? own->quantities.at("largest_step_s").values.front() : 0;
+  const bool has_step = result != nullptr && result->quantities.contains("largest_step_s");
+  const double step = has_step ? result->quantities.at("largest_step_s").values.front() : 0;
   const auto patch_of = [&](const Document& given, Refine how) {
     return is_mesh ? mesh_patch(given, how) : time_step_patch(given, how, step);
   };
@@ -248,7 +248,7 @@ std::optional<Companion> adjacent_refinement_level(const Document& document, Err
   }
   if (!patch) return std::nullopt;
   const bool by_tolerance = !is_mesh && (has_step_tolerance(document) ||
-                                         discretized_analysis(document) == "forward-dynamics");
+                                         inner_analysis_kind(document) == "forward-dynamics");
   if (by_tolerance) companion.ratio = 10;
   companion.words = is_mesh ? (companion.finer ? "twice the elements" : "half the elements")
                     : by_tolerance
@@ -266,21 +266,21 @@ std::optional<double> theoretical_order(const Document& document, ErrorSource so
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
 
-ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, ErrorSource source,
-                       const Companion& companion) {
+ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
+                       ErrorSource source, const Companion& companion) {
   const Document& document = companion.document;
-  const ErrorScales scales(document, own);
+  const ErrorScales scales(document, result);
   ErrorBands bands;
-  const bool by_shape = has_shapes(own) && has_shapes(other);
-  for (const auto& [name, quantity] : own.quantities) {
+  const bool by_shape = has_shapes(result) && has_shapes(other);
+  for (const auto& [name, quantity] : result.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;
     const std::vector<double>& values = quantity.values;
     const std::vector<double>& others = found->second.values;
     const bool is_frequency = name == "frequency_Hz" && by_shape;
     const auto places =
-        is_frequency ? matched_modes(own, other)
-                     : aligned(own.quantities, other.quantities, values.size(), others.size());
+        is_frequency ? matched_modes(result, other)
+                     : aligned(result.quantities, other.quantities, values.size(), others.size());
     const double scale = scales.of(name);
     const std::optional<double> order = theoretical_order(document, source, name);
     ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
@@ -305,11 +305,11 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, E
   return bands;
 }
 
-std::vector<ErrorEstimate> relative_errors(const Document& document, const AnalysisResult& own,
+std::vector<ErrorEstimate> relative_errors(const Document& document, const AnalysisResult& result,
                                            const std::map<ErrorSource, ErrorBands>& bands) {
   std::vector<ErrorEstimate> estimates;
-  const ErrorScales scales(document, own);
-  for (const auto& [name, quantity] : own.quantities) {
+  const ErrorScales scales(document, result);
+  for (const auto& [name, quantity] : result.quantities) {
     const auto has_all = [&, &name = name, size = quantity.values.size()](const auto& source) {
       const auto found = source.second.find(name);
       return found != source.second.end() && found->second.half_width.size() == size;
@@ -350,21 +350,21 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
   return estimates;
 }
 
-ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& own,
+ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& result,
                                const References& references) {
   ErrorEstimates found;
   std::map<ErrorSource, ErrorBands> bands;
   solver::Counters counters;
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
-    auto companion = adjacent_refinement_level(document, source, Refine::coarser, &own);
+    auto companion = adjacent_refinement_level(document, source, Refine::coarser, &result);
     while (companion) {
       try {
         companion->document.validate("case");
-        const AnalysisResult other =
-            analyze(companion->document, references, {.drawing = has_shapes(own)});
+        const auto other =
+            analyze(companion->document, references, {.drawing = has_shapes(result)});
         counters += other.counters;
-        if (other.outcome.solved() && (companion->finer || !is_same_result(own, other)))
-          bands[source] = error_bands(own, other, source, *companion);
+        if (other.outcome.solved() && (companion->finer || !is_same_result(result, other)))
+          bands[source] = error_bands(result, other, source, *companion);
       } catch (const InputError&) {  // fewer modes than the case requests
       }
       if (bands.contains(source)) {
@@ -375,7 +375,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
         found.reason = "the computation with " + companion->words + " has no solution";
         companion.reset();
       } else {
-        companion = adjacent_refinement_level(document, source, Refine::finer, &own);
+        companion = adjacent_refinement_level(document, source, Refine::finer, &result);
       }
     }
   }
@@ -383,9 +383,10 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
     found.reason = "the analysis has neither a mesh nor steps";
   if (bands.empty() && found.reason.empty()) {  // round-off is the only error
     found.companions = "none: springs, bars and rigid bodies have no mesh";
-    bands[ErrorSource::mesh] = error_bands(own, own, ErrorSource::mesh, {document, false, 2, ""});
+    bands[ErrorSource::mesh] =
+        error_bands(result, result, ErrorSource::mesh, {document, false, 2, ""});
   }
-  if (found.reason.empty()) found.quantities = relative_errors(document, own, bands);
+  if (found.reason.empty()) found.quantities = relative_errors(document, result, bands);
   found.counters = named_counters(counters);
   return found;
 }

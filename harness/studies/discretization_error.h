@@ -27,11 +27,11 @@ struct Companion {
 /// @param own  result of `document`, from which the largest step of a step control is read
 [[nodiscard]] std::optional<Companion> adjacent_refinement_level(
     const Document& document, ErrorSource source, Refine refine = Refine::coarser,
-    const AnalysisResult* own = nullptr);
+    const AnalysisResult* result = nullptr);
 
 /// Returns true if the results on two refinement levels are the same to the last bit. Both levels
 /// then had the same time steps, and their difference is no estimate of the error.
-[[nodiscard]] bool is_same_result(const AnalysisResult& own, const AnalysisResult& other);
+[[nodiscard]] bool is_same_result(const AnalysisResult& result, const AnalysisResult& other);
 
 /// Returns the order of convergence, which is the lowest order of all discretized parts of the
 /// case.
@@ -57,18 +57,18 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// times as wide. If the difference exceeds 10 % of the value, p is at most 2. If the values are
 /// exact in theory, U is the difference plus round-off. Modes are matched by their shapes if both
 /// results have them.
-[[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
+[[nodiscard]] ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 
 /// Returns the relative errors of a solved computation: sums of the half widths of the error bands
 /// due to mesh and time step, divided by the scales of the values.
 [[nodiscard]] std::vector<results::ErrorEstimate> relative_errors(
-    const Document& document, const AnalysisResult& own,
+    const Document& document, const AnalysisResult& result,
     const std::map<ErrorSource, ErrorBands>& bands);
 /// Repeats a solved computation with a coarser or finer mesh and time step, and returns the
 /// estimated errors of its quantities.
 [[nodiscard]] results::ErrorEstimates estimate_errors(const Document& document,
-                                                      const AnalysisResult& own,
+                                                      const AnalysisResult& result,
                                                       const References& references);
 
 /// Returns warnings about quantities whose estimated error exceeds the limit. Each warning names

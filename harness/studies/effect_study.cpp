@@ -47,7 +47,8 @@ class Study {
     for (const auto& [from, runs] :
          {std::pair(&study_.full, &study_.without_one), {&study_.chosen, &study_.without_chosen}}) {
       for (const Effect effect : removable(from->effects))
-        runs->push_back(compute(study_.scope.completed(study_.scope.without(from->effects, effect)),
+        runs->push_back(compute(study_.scope.with_implied_effects(
+                                    study_.scope.remove_with_dependents(from->effects, effect)),
                                 from->effects));
     }
     if (options_.repeats > 0) measure_time();
@@ -90,7 +91,8 @@ class Study {
   std::vector<Effect> removable(Effects from) const {
     std::vector<Effect> effects;
     for (const Effect effect : from.without(study_.scope.required).list())
-      if (!study_.scope.completed(from.without(effect)).has(effect)) effects.push_back(effect);
+      if (!study_.scope.with_implied_effects(from.without(effect)).has(effect))
+        effects.push_back(effect);
     return effects;
   }
 
@@ -107,8 +109,7 @@ class Study {
     }
     works.emplace_back(
         [this, scene = read_case_model(automatic_)] { (void)choose_effects(automatic_, scene); });
-    const std::vector<Timing> timings =
-        time_interleaved(works, {.repeats = options_.repeats}, nullptr);
+    const auto timings = time_interleaved(works, {.repeats = options_.repeats}, nullptr);
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->cpu_s = timings[i].median_s;
     study_.deciding_cpu_s = timings.back().median_s;
   }
@@ -126,7 +127,8 @@ class Study {
 
 bool EffectStudy::is_minimal() const {
   return std::ranges::none_of(without_chosen, [this](const EffectRun& run) {
-    return std::ranges::any_of(run.left_out.list(), is_expensive) && run.change() <= tolerance;
+    return std::ranges::any_of(run.left_out.list(), is_expensive) &&
+           run.largest_change() <= tolerance;
   });
 }
 
@@ -135,7 +137,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
   require_memory(document);
-  return rethrow_as_input(document, [&] { return Study(document, options).run(); });
+  return rethrow_as_input_error(document, [&] { return Study(document, options).run(); });
 }
 
 }  // namespace trammel::harness

@@ -23,7 +23,7 @@ struct EffectRun {
 
   /// Returns the largest relative change of the results, compared with all effects; infinite if the
   /// computation has no solution.
-  [[nodiscard]] double change() const { return max_change(changes).value; }
+  [[nodiscard]] double largest_change() const { return max_change(changes).value; }
 };
 
 struct EffectStudy {
@@ -42,7 +42,7 @@ struct EffectStudy {
   /// Runs without one of the chosen effects, for each chosen effect that can be removed.
   std::vector<EffectRun> without_chosen;
 
-  [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
+  [[nodiscard]] bool within_tolerance() const { return chosen.largest_change() <= tolerance; }
   /// @returns true if no expensive effect can be removed from the chosen effects within the
   ///   tolerance
   [[nodiscard]] bool is_minimal() const;

@@ -98,7 +98,7 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
 
 std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
   const auto located = [](const Document& document) {
-    return rethrow_as_input(document, [&] { return solve_and_sample(document); });
+    return rethrow_as_input_error(document, [&] { return solve_and_sample(document); });
   };
   const auto [frequency_a, places_a] = located(a);
   const auto [frequency_b, places_b] = located(b);

@@ -52,7 +52,7 @@ std::string describe_finest(const CostPoint& first, const std::optional<CostPoin
 
 }  // namespace
 
-std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error) {
+std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points, double error) {
   double min_time = std::numeric_limits<double>::infinity();
   for (const CostPoint& point : points)
     if (point.error <= error) min_time = std::min(min_time, point.time);
@@ -66,7 +66,7 @@ std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double e
 
 std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, double error) {
   std::vector<std::size_t> tied;
-  const auto best = cheapest(points, error);
+  const auto best = fastest_within(points, error);
   for (const CostPoint& point : points) {
     if (point.error <= error && point.setting != best->setting &&
         point.low <= (1 + kParetoTolerance) * best->high)
@@ -82,7 +82,7 @@ bool has_setting(const std::vector<CostPoint>& points, std::size_t setting) {
 std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
-    const CostPoint best = *cheapest(points, (1 + kParetoTolerance) * point.error);
+    const CostPoint best = *fastest_within(points, (1 + kParetoTolerance) * point.error);
     if (!has_setting(front, best.setting)) front.push_back(best);
   }
   std::ranges::sort(front, [](const CostPoint& a, const CostPoint& b) { return a.time < b.time; });
@@ -108,7 +108,7 @@ results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
   const auto look = [&](double error) {
     // Settings whose errors differ by less than kParetoTolerance count as equally accurate.
     const double within = (1 + kParetoTolerance) * error;
-    const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
+    const auto at_a = fastest_within(front_a, within), at_b = fastest_within(front_b, within);
     if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
   };
   for (const CostPoint& point : front_a) look(point.error);
@@ -118,7 +118,7 @@ results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
     agreement.largest_difference = std::expm1(quantile(differences, 1));
   }
   for (const double error : target_errors()) {
-    const auto at_a = cheapest(a, error), at_b = cheapest(b, error);
+    const auto at_a = fastest_within(a, error), at_b = fastest_within(b, error);
     if (!at_a || !at_b) continue;
     ++agreement.target_errors;
     if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
@@ -135,7 +135,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   const std::vector<CostPoint> front = find_pareto_front(points);
   if (front.empty()) return "No setting could be measured.";
   const CostPoint& best = front.back();
-  const auto first = cheapest(points, 0.01);
+  const auto first = fastest_within(points, 0.01);
   if (!first)
     return fmt::format("All errors exceed 1 %: the smallest is that of '{}', {}.",
                        titles[best.setting], error_text(best.error));
@@ -148,7 +148,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
     text += fmt::format(", taking as long as '{}'", titles[baseline]);
   if (!as_quick)
     text += fmt::format(", taking {} times as long as '{}'", times(first->time), titles[baseline]);
-  return text + describe_finest(*first, cheapest(points, 1e-6), best, titles);
+  return text + describe_finest(*first, fastest_within(points, 1e-6), best, titles);
 }
 
 }  // namespace trammel::harness

@@ -30,7 +30,8 @@ inline constexpr double kParetoTolerance = 0.05;
 [[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
 /// Returns the fastest point whose error is at most `error`; empty if there is none.
-[[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
+[[nodiscard]] std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points,
+                                                      double error);
 
 /// Returns the settings with an error of at most `error` that are not significantly slower than the
 /// fastest of them: the confidence intervals of the times overlap, or nearly do.

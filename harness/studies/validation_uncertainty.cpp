@@ -34,8 +34,7 @@ std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonV
         check.role == Role::validation && !check.reference.empty() && check.statistic.empty();
     const auto found = quantities.find(check.quantity);
     if (!compared || found == quantities.end()) continue;
-    const references::Reference& reference =
-        references.get(root["checks"][check.name]["reference"]);
+    const auto& reference = references.get(root["checks"][check.name]["reference"]);
     const std::size_t count = check.index.empty() ? reference.values.size() : check.index.size();
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t index = check.index.empty() ? k : check.index[k];
@@ -163,8 +162,9 @@ class ValidationStudy {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto* found = errors.find(places_[i].check->quantity);
       const Number half_width =
-          found == nullptr ? Number()
-                           : found->half_width(places_[i].index, value_at(quantities_, places_[i]));
+          found == nullptr
+              ? Number()
+              : found->error_half_width(places_[i].index, value_at(quantities_, places_[i]));
       study_.comparisons[i].u_num = half_width.value_or(0) / kGciToStandard;
     }
   }
@@ -198,7 +198,7 @@ class ValidationStudy {
     const Variation all = vary(true);
     const auto found = uncertainty_by_derivatives(all.response, all.half_widths);
     if (!found)
-      throw stated_["inputs"].error("the model has no solution near the values of these inputs");
+      throw stated_["inputs"].error("the model has no solution near values of uncertain inputs");
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Comparison& entry = study_.comparisons[i];
       double square = 0, literal = 0, largest = 0;

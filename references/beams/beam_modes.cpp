@@ -158,7 +158,7 @@ std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
 std::vector<Real> beam_modal_mass_program(const Arguments& arguments) {
   const Real mu = arguments.positive("tip_mass_ratio");
   std::vector<Real> shares;
-  for (const Real& b : beam_roots({"clamped-free", mu, 0}, arguments.count("count"))) {
+  for (const Real& b : beam_roots({"clamped-free", mu, 0}, arguments.natural_number("count"))) {
     const Real sech = 1 / cosh(b);
     const Real force = cos(b) * tanh(b) - sin(b);
     const Real derivative_mu = b * force;
@@ -171,7 +171,7 @@ std::vector<Real> beam_modal_mass_program(const Arguments& arguments) {
 
 std::vector<Real> beam_roots_program(const Arguments& arguments) {
   const BeamEnds ends = read_beam_ends(arguments);
-  return beam_roots(ends, arguments.count("count"));
+  return beam_roots(ends, arguments.natural_number("count"));
 }
 
 std::vector<Real> beam_frequencies_program(const Arguments& arguments) {
@@ -182,7 +182,7 @@ std::vector<Real> beam_frequencies_program(const Arguments& arguments) {
   const Real wave_speed = sqrt(arguments.positive("E_Pa") / arguments.positive("rho_kg_m3"));
   const BeamEnds ends = read_beam_ends(arguments);
   std::vector<Real> frequencies;
-  for (const Real& b : beam_roots(ends, arguments.count("count"))) {
+  for (const Real& b : beam_roots(ends, arguments.natural_number("count"))) {
     const Real wave_number = b / length;
     frequencies.push_back(wave_number * wave_number * radius_of_gyration * wave_speed /
                           (2 * pi<Real>()));
@@ -201,7 +201,7 @@ std::vector<Real> exponential_beam_program(const Arguments& arguments) {
   }
   const Real scale = sqrt(e * beam.r2) / (beam.L * beam.L);
   std::vector<Real> values = first_roots([&](const Real& w) { return characteristic(beam, w); },
-                                         scale, 2 * scale, arguments.count("count"));
+                                         scale, 2 * scale, arguments.natural_number("count"));
   for (Real& value : values) value /= 2 * pi<Real>();
   return values;
 }
@@ -219,7 +219,7 @@ std::vector<Real> tapered_beam_program(const Arguments& arguments) {
   const Real unit = arguments.positive("E_Pa") * t[0] * t[0] /
                     (12 * arguments.positive("rho_kg_m3") * length * length * length * length);
   std::vector<Real> values;
-  for (int i = 0; i < arguments.count("count"); ++i) {
+  for (int i = 0; i < arguments.natural_number("count"); ++i) {
     if (i >= fewer.size() || !(beam[i] / fewer[i] - 1 < Real("5e-15")))
       throw DerivationError("the Ritz values of mode " + std::to_string(i + 1) +
                             " have not converged");

@@ -118,8 +118,7 @@ Real load_parameter(const Real& tip_angle) {
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {
-  const std::string output =
-      arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
+  const auto output = arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
   if (output == "all") {
     if (arguments.has("length_m")) arguments.fail("length_m", "requires an output");
     return table;
@@ -170,7 +169,7 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
     return weight ? boost::math::cyl_bessel_j(Real(-1) / 3, x) : end_load_function(ends, x);
   };
   std::vector<Real> values =
-      first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.count("count"));
+      first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.natural_number("count"));
   for (Real& value : values) value = scale * value * value;
   return values;
 }

@@ -182,7 +182,7 @@ Chain read_chain(const Arguments& arguments) {
   };
   chain.start_turns = !has(start, "rotation");
   chain.end_held = {has(end, "x"), has(end, "y"), has(end, "rotation")};
-  if (arguments.has("steps")) chain.steps = arguments.count("steps");
+  if (arguments.has("steps")) chain.steps = arguments.natural_number("steps");
   return chain;
 }
 

@@ -129,8 +129,7 @@ double maximizer(std::function<double(double)> f, double lo, double hi, int grid
 
 std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments) {
   const std::vector<Mode> all = modes(arguments);
-  const std::string response =
-      arguments.choice("response", "", {"static", "harmonic-peak", "step-peak"});
+  const auto response = arguments.choice("response", "", {"static", "harmonic-peak", "step-peak"});
   const double first = all[0].w;
   const auto history = [&](double Mode::*share) -> std::function<double(double)> {
     if (response == "harmonic-peak")

@@ -40,7 +40,7 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
 ///
 ///   sin(theta/2) = k' sd(s, k),  cos(theta/2) = cd(s, k).
 std::vector<Real> parallelogram_chain_program(const Arguments& arguments) {
-  const Real N = arguments.count("loops");
+  const Real N = arguments.natural_number("loops");
   const Real length = arguments.positive("length_m");
   const Real a =
       arguments.positive("gravity_m_s2") / length * ((N + 1) / 2 + N) / ((N + 1) / 3 + N);

@@ -112,7 +112,7 @@ std::vector<Real> rotating_beam_roots_program(const Arguments& arguments) {
   if (arguments.has("axial_ratio")) beam.axial_ratio = arguments.positive("axial_ratio");
   if (beam.axial_ratio && !beam.in_plane)
     arguments.fail("axial_ratio", "requires bending in the plane of rotation");
-  return rotating_beam_roots(beam, arguments.count("count"));
+  return rotating_beam_roots(beam, arguments.natural_number("count"));
 }
 
 std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments) {
@@ -127,7 +127,7 @@ std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments) 
     const Real thickness = arguments.positive("thickness_m");
     beam.axial_ratio = 12 * L * L / (thickness * thickness);
   }
-  std::vector<Real> values = rotating_beam_roots(beam, arguments.count("count"));
+  std::vector<Real> values = rotating_beam_roots(beam, arguments.natural_number("count"));
   for (Real& value : values) value *= scale / (2 * pi<Real>());
   return values;
 }

@@ -160,7 +160,7 @@ void DynamicStiffness<T>::transform_members(const Frame& frame,
                                             const FrameCoordinates& coordinates) {
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     const MemberAxis axis = member_axis(frame, frame.members[e]);
-    RealMatrix world(6, coordinates.free()), axes = RealMatrix::Identity(6, 6);
+    RealMatrix world(6, coordinates.free_count()), axes = RealMatrix::Identity(6, 6);
     const auto u = coordinates.member_indices(static_cast<int>(e));
     for (int row = 0; row < 6; ++row) world.row(row) = coordinates.N().row(u[row]);
     for (const int end : {0, 3})
@@ -172,7 +172,7 @@ void DynamicStiffness<T>::transform_members(const Frame& frame,
 
 template <class T>
 void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates& coordinates) {
-  RealMatrix K = RealMatrix::Zero(coordinates.size(), coordinates.size());
+  RealMatrix K = RealMatrix::Zero(coordinates.coordinate_count(), coordinates.coordinate_count());
   for (const auto& [a, b, stiffness] : coordinates.springs(frame)) {
     K(b, b) += stiffness;
     if (a < 0) continue;
@@ -185,7 +185,7 @@ void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates
 
 template <class T>
 void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
-  RealMatrix M = RealMatrix::Zero(coordinates.size(), coordinates.size());
+  RealMatrix M = RealMatrix::Zero(coordinates.coordinate_count(), coordinates.coordinate_count());
   for (const FrameMass& mass : frame.masses) {
     const int x = coordinates.node_coordinate_index(mass.node, 0),
               y = coordinates.node_coordinate_index(mass.node, 1);
@@ -211,8 +211,8 @@ void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates
 }
 
 template <class T>
-typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
-                                                               const T& load_factor) const {
+typename DynamicStiffness<T>::Count DynamicStiffness<T>::wittrick_williams(
+    const T& w, const T& load_factor) const {
   const T w2 = w * w;
   Matrix<T> D = stiffness_ - w2 * inertia_;
   Count count;

@@ -46,7 +46,7 @@ class DynamicStiffness {
   /// Returns the Wittrick-Williams counts J and J0 at a frequency, and log |det D|.
   /// @param w  circular frequency > 0 [rad/s]
   /// @param load_factor  factor of the tension of every member
-  [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
+  [[nodiscard]] Count wittrick_williams(const T& w, const T& load_factor = T(1)) const;
 
  private:
   struct TransformedMember {

@@ -31,11 +31,11 @@ std::vector<bool> nodes_with_rotation(const Frame& frame) {
 }  // namespace
 
 FrameCoordinates::FrameCoordinates(const Frame& frame, bool constrain_inextensible) {
-  number(frame);
-  solve(equations(frame, constrain_inextensible));
+  number_coordinates(frame);
+  eliminate_constraints(constraint_equations(frame, constrain_inextensible));
 }
 
-void FrameCoordinates::number(const Frame& frame) {
+void FrameCoordinates::number_coordinates(const Frame& frame) {
   const std::vector<bool> has_rotation = nodes_with_rotation(frame);
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
     node_.push_back({size_, size_ + 1, has_rotation[i] ? size_ + 2 : -1});
@@ -72,8 +72,8 @@ std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
   return result;
 }
 
-std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& frame,
-                                                               bool constrain_inextensible) const {
+std::vector<FrameCoordinates::Row> FrameCoordinates::constraint_equations(
+    const Frame& frame, bool constrain_inextensible) const {
   std::vector<Row> rows;
   for (const FrameSupport& support : frame.supports) {
     for (int motion = 0; motion < 3; ++motion) {
@@ -108,7 +108,7 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
   return rows;
 }
 
-void FrameCoordinates::solve(const std::vector<Row>& equations) {
+void FrameCoordinates::eliminate_constraints(const std::vector<Row>& equations) {
   RealMatrix C = RealMatrix::Zero(static_cast<Eigen::Index>(equations.size()), size_);
   for (std::size_t i = 0; i < equations.size(); ++i) {
     for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;

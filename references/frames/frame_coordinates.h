@@ -27,9 +27,9 @@ class FrameCoordinates {
   /// @throws DerivationError  if a member has the length 0.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
-  [[nodiscard]] int size() const { return size_; }                        ///< size of u
-  [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< size of q
-  [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< matrix of u = N q
+  [[nodiscard]] int coordinate_count() const { return size_; }                  ///< size of u
+  [[nodiscard]] int free_count() const { return static_cast<int>(N_.cols()); }  ///< size of q
+  [[nodiscard]] const RealMatrix& N() const { return N_; }  ///< matrix of u = N q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if the node has no rotation.
   [[nodiscard]] int node_coordinate_index(int node, int motion) const {
@@ -49,9 +49,10 @@ class FrameCoordinates {
  private:
   using Row = std::map<int, Real>;  ///< one equation: index in u -> coefficient
 
-  void number(const Frame& frame);
-  [[nodiscard]] std::vector<Row> equations(const Frame& frame, bool constrain_inextensible) const;
-  void solve(const std::vector<Row>& equations);
+  void number_coordinates(const Frame& frame);
+  [[nodiscard]] std::vector<Row> constraint_equations(const Frame& frame,
+                                                      bool constrain_inextensible) const;
+  void eliminate_constraints(const std::vector<Row>& equations);
 
   int size_ = 0;
   std::vector<std::array<int, 3>> node_;

@@ -93,7 +93,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
 Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
   const std::vector<SpringElement> springs = coordinates.springs(frame);
   const std::size_t forces = 3 * frame.members.size() + springs.size();
-  const std::size_t n = coordinates.size();
+  const std::size_t n = coordinates.coordinate_count();
   Equations e{RealMatrix::Zero(n, forces), RealMatrix::Zero(forces, forces), RealVector::Zero(n),
               RealVector::Zero(forces)};
   for (std::size_t i = 0; i < frame.members.size(); ++i)
@@ -194,7 +194,7 @@ FrameStatics force_method_statics(const Frame& frame) {
   const RealVector f = x.head(e.Phi.rows());
 
   FrameStatics statics;
-  statics.displacement = coordinates.N() * x.tail(coordinates.free());
+  statics.displacement = coordinates.N() * x.tail(coordinates.free_count());
   statics.residual_force = e.B * f + e.p;
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     const auto load = member_load(frame, frame.members[i]);

@@ -113,7 +113,7 @@ Json decimal(double value) {
 class Differences {
  public:
   explicit Differences(const Arguments& arguments)
-      : arguments_(arguments), count_(arguments.count("count")) {
+      : arguments_(arguments), count_(arguments.natural_number("count")) {
     const Json& json = arguments.json();
     for (const std::string& text : arguments.texts("pointers")) {
       const Json::json_pointer pointer(text);
@@ -149,10 +149,10 @@ class Differences {
 
 }  // namespace
 
-std::vector<Real> counted_roots(const CountingFunction& f, int first, int count) {
+std::vector<Real> counted_roots(const CountingFunction& f, int skipped, int count) {
   std::vector<Real> roots;
   while (static_cast<int>(roots.size()) < count) {
-    const int found = first + static_cast<int>(roots.size());
+    const int found = skipped + static_cast<int>(roots.size());
     const Real root = counted_root(f, found + 1);
     const int multiplicity = f.fine(root * (1 + Real(1e-15))).below - found;
     const int missing = count - static_cast<int>(roots.size());
@@ -177,22 +177,23 @@ FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
   const Real scale = frequency_order_of_magnitude(frame);
-  const CountingFunction f{[&](double w) { return coarse.count(w).below; },
-                           [&](const Real& w) { return fine.count(w); },
+  const CountingFunction f{[&](double w) { return coarse.wittrick_williams(w).below; },
+                           [&](const Real& w) { return fine.wittrick_williams(w); },
                            1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
   FrameFrequencies result;
-  result.rigid_motions = fine.count(scale * Real(1e-8)).below;
+  result.rigid_motions = fine.wittrick_williams(scale * Real(1e-8)).below;
   result.frequencies = counted_roots(f, result.rigid_motions, count);
   for (Real& w : result.frequencies) w /= 2 * pi<Real>();
   return result;
 }
 
 int frequencies_below(const Frame& frame, const Real& frequency) {
-  return DynamicStiffness<Real>(frame).count(2 * pi<Real>() * frequency).below;
+  return DynamicStiffness<Real>(frame).wittrick_williams(2 * pi<Real>() * frequency).below;
 }
 
 std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
-  return frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies;
+  return frame_frequencies(frame_from_arguments(arguments), arguments.natural_number("count"))
+      .frequencies;
 }
 
 std::vector<Real> frame_frequency_count_program(const Arguments& arguments) {
@@ -206,13 +207,13 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const Real w =
       frequency_order_of_magnitude(frame) * Real(1e-11);  // w^2 changes a load factor by 1e-22
   const auto coarse_w = static_cast<double>(frequency_order_of_magnitude(frame)) * 1e-3;
-  if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0)
+  if (fine.wittrick_williams(w, Real(1e-6) * buckling_scale(frame)).below > 0)
     throw DerivationError("the frame can move freely");
   const auto scale = static_cast<double>(buckling_scale(frame));
   return counted_roots(
-      {[&](double factor) { return coarse.count(coarse_w, factor).below; },
-       [&](const Real& factor) { return fine.count(w, factor); }, 1e-4 * scale, scale},
-      0, arguments.count("count"));
+      {[&](double factor) { return coarse.wittrick_williams(coarse_w, factor).below; },
+       [&](const Real& factor) { return fine.wittrick_williams(w, factor); }, 1e-4 * scale, scale},
+      0, arguments.natural_number("count"));
 }
 
 std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments) {

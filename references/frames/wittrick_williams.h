@@ -20,9 +20,9 @@ struct CountingFunction {
   double hi = 0;  ///< first upper end of the search, which is doubled
 };
 
-/// Returns the roots from `first` + 1 to `first` + `count` of a count, each to relative 1e-20.
-/// @throws DerivationError  if the count stays below `first` + `count`.
-[[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int first, int count);
+/// Returns the roots from `skipped` + 1 to `skipped` + `count` of a count, each to relative 1e-20.
+/// @throws DerivationError  if the count stays below `skipped` + `count`.
+[[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int skipped, int count);
 
 struct FrameFrequencies {
   int rigid_motions = 0;          ///< number of rigid motions, w = 0

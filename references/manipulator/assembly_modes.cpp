@@ -83,7 +83,8 @@ struct Search {
   }
 
   /// Adds the zero of the polynomial Q(phi), phi being the angle of the platform, in an interval in
-  /// which Q is monotonic, if there is one. A zero at the common end of two intervals is added once.
+  /// which Q is monotonic, if there is one. A zero at the common end of two intervals is added
+  /// once.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));

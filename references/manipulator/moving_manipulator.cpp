@@ -95,8 +95,7 @@ class Platform {
     if (name == "displacement_y_m") return x[1];
     if (name == "platform_rotation_rad") return x[2];
     if (name == "kinetic_energy_J") {
-      const Point2<Real> s =
-          rotated(numbers_.platform_center, platform_motion(trajectory_, t)[2].value);
+      const auto s = rotated(numbers_.platform_center, platform_motion(trajectory_, t)[2].value);
       const Real u = x[3] - s[1] * x[5], v = x[4] + s[0] * x[5];
       return (numbers_.platform_mass * (u * u + v * v) + numbers_.platform_inertia * x[5] * x[5]) /
              2;

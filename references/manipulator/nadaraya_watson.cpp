@@ -79,7 +79,7 @@ std::vector<Real> manipulator_grnn_program(const Arguments& arguments) {
   const Arguments trajectory = trajectory_arguments(arguments);
   const Real step = arguments.positive("step_s");
   Rows inputs, outputs;
-  for (int k = 0; k < arguments.count("train"); ++k) {
+  for (int k = 0; k < arguments.natural_number("train"); ++k) {
     const Sample sample = sample_at(manipulator, trajectory, wrench, k * step);
     inputs.push_back(sample.torques);
     outputs.push_back(sample.joints);

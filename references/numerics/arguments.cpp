@@ -91,7 +91,7 @@ Real Arguments::not_negative(const std::string& key, const Real& default_value) 
   return value;
 }
 
-int Arguments::count(const std::string& key) const {
+int Arguments::natural_number(const std::string& key) const {
   const Json& value = (*this)[key];
   if (!value.is_number_integer() || value.get<long>() < 1 || value.get<long>() > 1000)
     fail(key, "expected a whole number from 1 to 1000");

@@ -46,7 +46,7 @@ class Arguments {
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;
-  [[nodiscard]] int count(const std::string& key) const;  ///< 1 ... 1000
+  [[nodiscard]] int natural_number(const std::string& key) const;  ///< 1 ... 1000
   [[nodiscard]] bool flag(const std::string& key, bool default_value) const;
   [[nodiscard]] std::string text(const std::string& key) const;
   /// Returns one of `choices`, or `default_value` if the key is missing.

@@ -11,7 +11,7 @@ namespace trammel::references {
 Ball::Ball(const Real& value) : Ball() {
   arb_set_str(x_, value.str(50, std::ios::scientific).c_str(), kBits);
   if (value == trunc(value) && abs(value) < Real(1e6)) return;
-  const Ball doubt = abs(*this) / with(arb_pow, 10, 45);
+  const Ball doubt = abs(*this) / apply(arb_pow, 10, 45);
   arb_add_error(x_, doubt.x_);
 }
 

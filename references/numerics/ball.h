@@ -34,10 +34,10 @@ class Ball {
   /// @throws DerivationError  if the ball contains no or several integers.
   explicit operator int() const;
 
-  friend Ball operator+(const Ball& a, const Ball& b) { return with(arb_add, a, b); }
-  friend Ball operator-(const Ball& a, const Ball& b) { return with(arb_sub, a, b); }
-  friend Ball operator*(const Ball& a, const Ball& b) { return with(arb_mul, a, b); }
-  friend Ball operator/(const Ball& a, const Ball& b) { return with(arb_div, a, b); }
+  friend Ball operator+(const Ball& a, const Ball& b) { return apply(arb_add, a, b); }
+  friend Ball operator-(const Ball& a, const Ball& b) { return apply(arb_sub, a, b); }
+  friend Ball operator*(const Ball& a, const Ball& b) { return apply(arb_mul, a, b); }
+  friend Ball operator/(const Ball& a, const Ball& b) { return apply(arb_div, a, b); }
   Ball operator-() const { return 0 - *this; }
   Ball& operator+=(const Ball& b) { return *this = *this + b; }
   Ball& operator-=(const Ball& b) { return *this = *this - b; }
@@ -52,13 +52,13 @@ class Ball {
     return arb_is_exact(a.x_) != 0 && arb_equal(a.x_, b.x_) != 0;
   }
 
-  friend Ball sqrt(const Ball& a) { return of(arb_sqrt, a); }
-  friend Ball sin(const Ball& a) { return of(arb_sin, a); }
-  friend Ball cos(const Ball& a) { return of(arb_cos, a); }
-  friend Ball acos(const Ball& a) { return of(arb_acos, a); }
-  friend Ball tanh(const Ball& a) { return of(arb_tanh, a); }
-  friend Ball log(const Ball& a) { return of(arb_log, a); }
-  friend Ball ceil(const Ball& a) { return of(arb_ceil, a); }
+  friend Ball sqrt(const Ball& a) { return apply(arb_sqrt, a); }
+  friend Ball sin(const Ball& a) { return apply(arb_sin, a); }
+  friend Ball cos(const Ball& a) { return apply(arb_cos, a); }
+  friend Ball acos(const Ball& a) { return apply(arb_acos, a); }
+  friend Ball tanh(const Ball& a) { return apply(arb_tanh, a); }
+  friend Ball log(const Ball& a) { return apply(arb_log, a); }
+  friend Ball ceil(const Ball& a) { return apply(arb_ceil, a); }
   friend Ball abs(const Ball& a) {
     Ball result;
     arb_abs(result.x_, a.x_);
@@ -71,12 +71,12 @@ class Ball {
   using Unary = void (*)(arb_t, const arb_t, slong);
   using Relation = int (*)(const arb_t, const arb_t);
 
-  static Ball with(Binary operation, const Ball& a, const Ball& b) {
+  static Ball apply(Binary operation, const Ball& a, const Ball& b) {
     Ball result;
     operation(result.x_, a.x_, b.x_, kBits);
     return result;
   }
-  static Ball of(Unary function, const Ball& a) {
+  static Ball apply(Unary function, const Ball& a) {
     Ball result;
     function(result.x_, a.x_, kBits);
     return result;

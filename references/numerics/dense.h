@@ -14,12 +14,12 @@ using RealMatrix = Matrix<Real>;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
 /// Solves A x = b by Gaussian elimination with partial pivoting.
-/// @param problem  error message if A is singular
+/// @param message  error message if A is singular
 /// @throws DerivationError  if a pivot is at most `min_pivot`.
-[[nodiscard]] inline RealVector solve(const RealMatrix& A, const RealVector& b, const char* problem,
+[[nodiscard]] inline RealVector solve(const RealMatrix& A, const RealVector& b, const char* message,
                                       const Real& min_pivot = Real("1e-40")) {
   const Eigen::PartialPivLU<RealMatrix> lu(A);
-  if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff() > min_pivot)) throw DerivationError(problem);
+  if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff() > min_pivot)) throw DerivationError(message);
   return lu.solve(b);
 }
 

@@ -35,10 +35,10 @@ template <class T>
 [[nodiscard]] Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo,
                                 const Real& hi);
 
-/// Returns the first `count` sign changes of `f` above `start`, found on a grid of spacing `step`.
-/// The caller ensures that the step is shorter than the distance between two roots.
+/// Returns the first `count` sign changes of `f` above `start`, found on a grid with the given
+/// spacing. The caller ensures that the spacing is smaller than the distance between two roots.
 /// @throws DerivationError  if fewer are found below start + 1e5 steps.
 [[nodiscard]] std::vector<Real> first_roots(const std::function<Real(const Real&)>& f,
-                                            const Real& start, const Real& step, int count);
+                                            const Real& start, const Real& spacing, int count);
 
 }  // namespace trammel::references

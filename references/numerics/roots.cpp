@@ -23,11 +23,11 @@ Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, con
 }
 
 std::vector<Real> first_roots(const std::function<Real(const Real&)>& f, const Real& start,
-                              const Real& step, int count) {
+                              const Real& spacing, int count) {
   std::vector<Real> roots;
   Real lo = start, f_lo = f(lo);
   for (int i = 1; i <= 100000 && static_cast<int>(roots.size()) < count; ++i) {
-    const Real hi = start + i * step, f_hi = f(hi);
+    const Real hi = start + i * spacing, f_hi = f(hi);
     if ((f_lo < 0) != (f_hi < 0)) roots.push_back(refined_root(f, lo, hi));
     lo = hi;
     f_lo = f_hi;

@@ -26,7 +26,7 @@ int run_program(const std::string& name, const std::string& text, bool proving, 
     for (const std::string& digits : prove(name, arguments)) out << digits << "\n";
     return 0;
   }
-  for (const double value : derive(name, arguments)) out << in_column(value, 0, 17) << "\n";
+  for (const double value : derive_values(name, arguments)) out << in_column(value, 0, 17) << "\n";
   return 0;
 }
 
@@ -137,7 +137,7 @@ Comparison compare_with_derivation(const Json& json, const std::string& file,
                              {"program", "arguments"});
   result.program = derivation.text("program");
   try {
-    result.derived = derive(result.program, derivation["arguments"]);
+    result.derived = derive_values(result.program, derivation["arguments"]);
     if (!result.printed.empty()) result.proved = prove(result.program, derivation["arguments"]);
   } catch (const DerivationError& error) {
     const std::string message = error.what();

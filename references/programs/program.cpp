@@ -30,8 +30,7 @@ std::vector<std::string> argument_names(const std::string& program) {
   static const std::regex remark(R"(\([^()]*\))"), name(R"(\w+)");
   const std::string label = "    arguments: ", text = "\n" + embedded_text("programs.txt");
   const std::size_t from = text.find(label, text.find("\n" + program + "\n")) + label.size();
-  const std::string line =
-      std::regex_replace(text.substr(from, text.find('\n', from) - from), remark, "");
+  const auto line = std::regex_replace(text.substr(from, text.find('\n', from) - from), remark, "");
   return {std::sregex_token_iterator(line.begin(), line.end(), name), {}};
 }
 
@@ -112,7 +111,7 @@ const std::map<std::string, Program>& programs() {
   return table;
 }
 
-std::vector<double> derive(const std::string& program, const Json& arguments) {
+std::vector<double> derive_values(const std::string& program, const Json& arguments) {
   const std::vector<Real> values = run_program(program, arguments);
   std::vector<double> rounded;
   for (const Real& value : values) rounded.push_back(static_cast<double>(value));

@@ -25,7 +25,7 @@ struct Program {
 /// Returns the values that a program derives from its arguments, in SI units.
 /// @throws DerivationError  if the program is unknown, or if an argument is invalid. The message
 /// then contains the JSON pointer of the argument.
-[[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
+[[nodiscard]] std::vector<double> derive_values(const std::string& program, const Json& arguments);
 
 /// Return proved values of the programs frame-frequencies and beam-roots, 30 digits each.
 [[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Arguments& arguments);

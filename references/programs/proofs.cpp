@@ -40,7 +40,9 @@ class Proof {
     int multiplicity = 0;
   };
 
-  [[nodiscard]] int count(const Ball& x) const { return stiffness_.count(variable_.w(x)).below; }
+  [[nodiscard]] int count(const Ball& x) const {
+    return stiffness_.wittrick_williams(variable_.w(x)).below;
+  }
 
   /// Encloses the next x at which the count of natural frequencies increases, by bisection to its
   /// 32nd digit. The count does not change between the previous enclosure and this one, so that no
@@ -102,14 +104,14 @@ Frame unit_beam(const BeamEnds& ends) {
 
 std::vector<std::string> prove_frame_frequencies(const Arguments& arguments) {
   const Frame frame = frame_from_arguments(arguments);
-  const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
+  const FrameFrequencies found = frame_frequencies(frame, arguments.natural_number("count"));
   const Variable variable{[](const Ball& f) { return 2 * pi<Ball>() * f; }, found.frequencies};
   return Proof(frame, variable, found.rigid_motions).run();
 }
 
 std::vector<std::string> prove_beam_roots(const Arguments& arguments) {
   const Frame frame = unit_beam(read_beam_ends(arguments));
-  const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
+  const FrameFrequencies found = frame_frequencies(frame, arguments.natural_number("count"));
   Variable variable{[](const Ball& b) { return b * b; }, {}};
   for (const Real& f : found.frequencies) variable.near.push_back(sqrt(2 * pi<Real>() * f));
   return Proof(frame, variable, found.rigid_motions).run();

@@ -18,9 +18,9 @@ bool is_failure(CheckStatus status) {
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
     case Verdict::pass:
-      return check.known_discrepancy() ? CheckStatus::known_discrepancy : CheckStatus::passes;
+      return check.is_known_discrepancy() ? CheckStatus::known_discrepancy : CheckStatus::passes;
     case Verdict::fail:
-      return check.known_discrepancy() ? CheckStatus::changed_discrepancy : CheckStatus::fails;
+      return check.is_known_discrepancy() ? CheckStatus::changed_discrepancy : CheckStatus::fails;
     case Verdict::error:
       return CheckStatus::error;
     case Verdict::not_run:
@@ -76,7 +76,7 @@ std::size_t total(const Counts& counts) {
   return sum;
 }
 
-void add(Counts& counts, const Run& run) {
+void add_check_counts(Counts& counts, const Run& run) {
   for (const CheckGroup& group : group_checks(run)) ++counts[check_status(group.worst())];
 }
 

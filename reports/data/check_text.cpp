@@ -46,7 +46,7 @@ std::string statistic_text(const std::string& statistic) {
   }};
   for (const auto& [key, text_of_key] : words)
     if (statistic == key) return text_of_key;
-  return spaced(statistic);
+  return separators_to_spaces(statistic);
 }
 
 /// Returns the number of digits that show the difference of a ratio from 1.
@@ -57,7 +57,7 @@ int ratio_digits(double ratio) {
 /// Returns a tolerance limit or a difference as text: as a percentage, as a ratio, or with its
 /// unit, depending on the measure of the check.
 std::string measured_text(const Check& check, double x, bool sign) {
-  if (check.measure == "relative") return relative(x, 3, sign);
+  if (check.measure == "relative") return percent_text(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
   const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
   const bool plain = check.measure == "order" || check.measure == "leading-term";
@@ -107,10 +107,10 @@ std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
     // A value with only an upper limit is shown as its fraction of the limit: "12 % of limit". A
     // value with a lower limit is shown as "within" or "outside" its limits.
-    const double used = share_of_tolerance(check);
+    const double used = difference_over_tolerance(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
-    return relative(used, 2, false) + " of limit";
+    return percent_text(used, 2, false) + " of limit";
   }
   return check.difference ? difference_text(check, *check.difference) : "–";
 }
@@ -168,7 +168,7 @@ std::string failure_text(const CheckGroup& group) {
   text += "computed " + computed_text(worst) + " against " + target_text(worst);
   if (worst.measure != "bound")
     text += ", " + difference_text(worst) + " where " + tolerance_text(worst) +
-            (worst.known_discrepancy() ? " is expected" : " is allowed");
+            (worst.is_known_discrepancy() ? " is expected" : " is allowed");
   return worst.message.empty() ? text : text + " (" + worst.message + ")";
 }
 
@@ -179,7 +179,7 @@ std::string work_counters_text(const Counters& counters) {
     std::string digits = std::to_string(n);
     for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
       digits.insert(static_cast<std::size_t>(place), "\u202f");
-    add_item(text, digits + " " + spaced(name));
+    add_item(text, digits + " " + separators_to_spaces(name));
   }
   return text;
 }

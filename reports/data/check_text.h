@@ -60,7 +60,7 @@ using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t total(const Counts& counts);
 /// Adds the numbers of checks of a run to `counts`. A check of several values counts once, with the
 /// status of its worst value.
-void add(Counts& counts, const Run& run);
+void add_check_counts(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
 // Values of a check as text for the cells of a table.

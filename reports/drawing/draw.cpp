@@ -165,12 +165,12 @@ bool has_gnuplot() {
   return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 
-void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs::path& former,
+void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs::path& cache,
           const std::string& program) {
   fs::create_directories(folder);
   std::vector<Figure*> missing;
   for (Figure* figure : figures)
-    if (former.empty() || !reuse_drawing(former, program, *figure)) missing.push_back(figure);
+    if (cache.empty() || !reuse_drawing(cache, program, *figure)) missing.push_back(figure);
   draw_by_gnuplot(missing, folder);
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);

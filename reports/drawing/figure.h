@@ -32,11 +32,11 @@ struct Figure {
 
 /// Draws all figures with one gnuplot process. Sets `svg`, and writes <id>.svg and <id>.csv for
 /// each figure into `folder`.
-/// @param former   folder of earlier drawings, which are reused if unchanged; empty: no reuse
+/// @param cache   folder of earlier drawings, which are reused if unchanged; empty: no reuse
 /// @param program  version of this program; drawings of other versions are not reused
 /// @throws std::runtime_error  if a figure cannot be drawn or written.
 void draw(const std::vector<Figure*>& figures, const std::filesystem::path& folder,
-          const std::filesystem::path& former = {}, const std::string& program = {});
+          const std::filesystem::path& cache = {}, const std::string& program = {});
 
 /// Converts gnuplot's SVG to an <svg> element for a page: with role, title and description, ids
 /// that start with a hash of `id`, and colors as #rrggbb, but without empty groups and unused

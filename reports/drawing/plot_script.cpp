@@ -62,12 +62,12 @@ std::string tic(const std::string& text, double at) {
   return gnuplot_string(format) + " " + shortest_decimal(at);
 }
 
-std::size_t characters(const std::string& utf8) {
+std::size_t character_count(const std::string& utf8) {
   return static_cast<std::size_t>(std::ranges::count_if(utf8, starts_character));
 }
 
 std::string shortened(const std::string& text, std::size_t max_characters) {
-  if (characters(text) <= max_characters) return text;
+  if (character_count(text) <= max_characters) return text;
   std::size_t seen = 0, end = 0;
   while (end < text.size() && (seen += starts_character(text[end])) < max_characters) ++end;
   return text.substr(0, end) + "…";
@@ -108,7 +108,7 @@ void PlotScript::plot() {
 int PlotScript::place_key_below(const std::vector<std::string>& titles, std::size_t max_columns) {
   std::size_t longest = 1;
   for (const std::string& title : titles)
-    longest = std::max(longest, std::min(characters(title), kMaxKeyCharacters));
+    longest = std::max(longest, std::min(character_count(title), kMaxKeyCharacters));
   const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, max_columns);
   command("set key maxcols " + std::to_string(columns));
   return 8 + 22 * static_cast<int>((titles.size() + columns - 1) / columns);

@@ -20,7 +20,7 @@ namespace trammel::reports {
 /// Returns a text that is shortened to at most `max_characters` characters. A shortened text ends
 /// with an ellipsis.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
-[[nodiscard]] std::size_t characters(const std::string& utf8);
+[[nodiscard]] std::size_t character_count(const std::string& utf8);
 
 /// Returns the line color as an option of gnuplot: " lc rgb '#1f5fa8'".
 [[nodiscard]] std::string lc(const std::string& color);

@@ -91,7 +91,8 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
   const std::string caption =
       "Printed values, and computed values with their expanded uncertainty (discretization and "
       "inputs). The computed values differ by " +
-      low_to_high(relative(differences.low, 3, true), relative(differences.high, 3, true)) + ".";
+      low_to_high(percent_text(differences.low, 3, true), percent_text(differences.high, 3, true)) +
+      ".";
   return Figure{.id = slug(info.id + "-" + run.variant + "-agreement"),
                 .title = capitalized(to_text(quantity)) + ": printed and computed",
                 .caption = caption,

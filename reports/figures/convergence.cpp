@@ -137,7 +137,7 @@ std::string conclusion(const Sweeps& sweeps) {
   if (mixed)
     return which + " follows the law a h^" + trimmed(*first.theory_order, 3) + " + b h^" +
            trimmed(*first.lower_order, 3) + ", with the mesh or step size h, within " +
-           reports::relative(misfit, 2, false) + ".";
+           reports::percent_text(misfit, 2, false) + ".";
   return which + (fitted == 1 ? " falls" : " fall") + " with order " +
          low_to_high(significant(orders.low, 3), significant(orders.high, 3)) +
          (first.theory_order ? "; theory: " + trimmed(*first.theory_order, 3) : "") + ".";
@@ -221,8 +221,7 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
     if (c.parameter.empty()) continue;
     // A quantity that is exact on every mesh, such as a count, has no curve.
     const Numbers errors = errors_of(c);
-    const auto nonzero =
-        std::ranges::count_if(errors, [](const Number& e) { return e && *e != 0; });
+    const auto nonzero = std::ranges::count_if(errors, [](const auto& e) { return e && *e != 0; });
     if (nonzero < 2) continue;
     const auto same = [&](const Sweeps& known) {
       return known.front()->sweep == c.sweep && known.front()->quantity == c.quantity;

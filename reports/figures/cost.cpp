@@ -16,11 +16,11 @@ constexpr double kSmallestDrawnCostError = 1e-16;  ///< smaller errors are drawn
 constexpr double kMargin = 1.3;                    ///< ratio of axis limits to outermost points
 
 double drawn_error(const CostStudy& study, const CostSetting& setting) {
-  return std::max(study.error(setting).value_or(0), kSmallestDrawnCostError);
+  return std::max(study.error_of(setting).value_or(0), kSmallestDrawnCostError);
 }
 
 bool is_drawn(const CostStudy& study, const CostSetting& setting) {
-  return setting.measured() && study.error(setting) && setting.relative;
+  return setting.is_measured() && study.error_of(setting) && setting.relative;
 }
 
 Interval errors_of(const CostStudy& study) {
@@ -112,7 +112,7 @@ Figure cost_figure(const CostStudy& study) {
   PlotScript script;
   const Interval errors = errors_of(study), times = times_of(study);
   const auto outside =
-      static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::without_result));
+      static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::has_no_result));
   script.log_axis("x", errors.low, errors.high);
   script.log_axis("y", times.low, times.high);
   const double high = std::pow(10, std::ceil(std::log10(errors.high) - 1e-9));

@@ -116,7 +116,8 @@ std::vector<Family> plan_family_figures(const Results& results) {
       if (run.case_id == info.id) runs.push_back(&run);
     if (runs.empty()) continue;
     const auto same = [&](const Family& known) { return known.id == info.family; };
-    const std::string title = info.family.empty() ? "Own cases" : capitalized(spaced(info.family));
+    const std::string title =
+        info.family.empty() ? "Own cases" : capitalized(separators_to_spaces(info.family));
     Family& family = harness::find_or_add(families, same, {.id = info.family, .title = title});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());

@@ -74,7 +74,7 @@ void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box)
   constexpr std::size_t kMaxDimensions = 6;
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> lengths;
-  const PlotScript::Rows lines = rows_of(
+  const PlotScript::Rows lines = polyline_points(
       drawing.members.empty() ? triangle_edges(drawing) : polylines(drawing), drawing.nodes);
   for (std::size_t i = 1; i < lines.size() && lengths.size() < kMaxDimensions; ++i) {
     if (lines[i].empty() || lines[i - 1].empty()) continue;
@@ -182,7 +182,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing, loads);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(rows_of(triangle_edges_inside(drawing), drawing.nodes),
+  script.curve(polyline_points(triangle_edges_inside(drawing), drawing.nodes),
                "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);

@@ -186,8 +186,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
     draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
-  const std::string caption =
-      caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
+  const auto caption = caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,
@@ -204,8 +203,8 @@ bool are_finite(const std::vector<Point>& points) {
 }
 
 std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                           const Box& box, double panel) {
-  Panel moving(drawing, box, panel);
+                           const Box& box, double panel_width) {
+  Panel moving(drawing, box, panel_width);
   moving.json["nodes"] = moving.places(drawing.nodes);
   for (std::size_t s = 0; s < factor.size(); ++s) {
     const Shape& shape = drawing.shapes[s];

@@ -111,8 +111,8 @@ std::vector<std::vector<int>> triangle_edges_inside(const Drawing& drawing, std:
   return lines;
 }
 
-PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
-                         const std::vector<Point>& nodes) {
+PlotScript::Rows polyline_points(const std::vector<std::vector<int>>& lines,
+                                 const std::vector<Point>& nodes) {
   PlotScript::Rows rows;
   for (const auto& line : lines) {
     if (!rows.empty()) rows.emplace_back();
@@ -133,7 +133,7 @@ PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Poin
       closed.push_back(t);
       closed.back().push_back(t.front());
     }
-    return rows_of(closed, nodes);
+    return polyline_points(closed, nodes);
   }
   // One polygon passes through all loops and returns to its start after each, so that holes stay
   // unfilled.
@@ -145,7 +145,7 @@ PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Poin
       closed.front().push_back(closed.front().front());
     }
   }
-  return rows_of(closed, nodes);
+  return polyline_points(closed, nodes);
 }
 
 std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape, double factor) {
@@ -180,9 +180,9 @@ void set_axis_ranges(PlotScript& script, const Box& box) {
 void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
                const std::string& color, double width, const std::string& title) {
   const std::string line = "with lines" + lc(color) + " lw ";
-  script.curve(rows_of(triangle_edges(drawing), nodes), line + shortest_decimal(0.5 * width),
-               drawing.members.empty() ? title : "");
-  script.curve(rows_of(polylines(drawing), nodes), line + shortest_decimal(width), title);
+  script.curve(polyline_points(triangle_edges(drawing), nodes),
+               line + shortest_decimal(0.5 * width), drawing.members.empty() ? title : "");
+  script.curve(polyline_points(polylines(drawing), nodes), line + shortest_decimal(width), title);
 }
 
 int drawing_height(const Box& box) {

@@ -24,8 +24,8 @@ namespace trammel::reports {
                                                                   std::size_t panels = 1);
 
 /// Returns rows of (x, y), with an empty row between polylines.
-[[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
-                                       const std::vector<Point>& nodes);
+[[nodiscard]] PlotScript::Rows polyline_points(const std::vector<std::vector<int>>& lines,
+                                               const std::vector<Point>& nodes);
 
 /// Returns closed polygons to be filled: triangles of a coarse mesh, or the outline of a fine mesh.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
@@ -71,8 +71,8 @@ inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflectio
 
 /// Returns the animation of modes as JSON, with one panel for each mode.
 /// @param factor  magnification of each mode shape
-/// @param panel   width of a panel [px]
+/// @param panel_width   width of a panel [px]
 [[nodiscard]] std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                                         const Box& box, double panel);
+                                         const Box& box, double panel_width);
 
 }  // namespace trammel::reports

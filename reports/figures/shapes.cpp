@@ -26,7 +26,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
       label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::kInk) + "'");
   draw_body(script, drawing, drawing.nodes, palette::kStructure, 1.2);
   script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(rows_of(triangle_edges_inside(drawing, panels), moved),
+  script.curve(polyline_points(triangle_edges_inside(drawing, panels), moved),
                "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, moved, palette::color(0), 2.2);
   script.plot();

@@ -66,11 +66,11 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   for (const EffectRow& effect : run.effects) {
     if (!effect.own_change) continue;
     const double change = std::max(*effect.own_change, kSmallestDrawnChange);
-    add_item(tics, tic(spaced(effect.name), --y), ",");
+    add_item(tics, tic(separators_to_spaces(effect.name), --y), ",");
     (effect.active ? kept : omitted)
         .push_back({change, y, kSmallestDrawnChange, change, y - 0.3, y + 0.3});
-    add_item(effect.active ? needed : others,
-             spaced(effect.name) + " (" + relative(*effect.own_change, 2, false) + ")");
+    add_item(effect.active ? needed : others, separators_to_spaces(effect.name) + " (" +
+                                                  percent_text(*effect.own_change, 2, false) + ")");
     const double sum = std::max(effect.cumulative_change.value_or(0), kSmallestDrawnChange);
     if (effect.cumulative_change) cumulative.push_back({sum, y});
     largest = std::max({largest, change, sum});
@@ -94,8 +94,8 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   if (scene != results.effect_scenes.end()) {
     script.curve({{scene->tolerance, y - 0.6}, {scene->tolerance, -0.4}},
                  "with lines lw 1.5 dt 2" + lc(palette::kMuted), "tolerance");
-    caption += " Requested " + relative(scene->tolerance, 2, false) + ", obtained " +
-               relative(scene->change, 2, false) + ".";
+    caption += " Requested " + percent_text(scene->tolerance, 2, false) + ", obtained " +
+               percent_text(scene->change, 2, false) + ".";
   }
   // The key has only two columns, because the names of the effects reduce the width of the plot.
   const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"}, 2);

@@ -29,13 +29,13 @@ double row_y(std::size_t row) {
 
 double drawn_fraction(const Check& check) {
   if (check.verdict == Verdict::error) return kMaxShare;
-  return std::clamp(share_of_tolerance(check), kMinShare, kMaxShare);
+  return std::clamp(difference_over_tolerance(check), kMinShare, kMaxShare);
 }
 
 bool is_shown(const Check& check) {
-  if (check.known_discrepancy() || check.verdict == Verdict::not_run) return false;
+  if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
-         (check.verdict == Verdict::pass && std::isfinite(share_of_tolerance(check)));
+         (check.verdict == Verdict::pass && std::isfinite(difference_over_tolerance(check)));
 }
 
 /// Returns a row for each case, or for each check if the family has only one case.
@@ -118,7 +118,7 @@ Table table_of(const std::vector<ToleranceRow>& rows) {
   table.heads = words_in("case variant check quantity index share_of_tolerance verdict");
   for (const ToleranceRow& row : rows)
     for (const auto& [run, check] : row.checks) {
-      const double used = share_of_tolerance(*check);
+      const double used = difference_over_tolerance(*check);
       table.rows.push_back(
           {run->case_id, run->variant, check->name, check->quantity,
            check->index ? Table::Cell(static_cast<double>(*check->index + 1)) : Table::Cell{},

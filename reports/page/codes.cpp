@@ -80,7 +80,7 @@ const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
     return std::tuple(check.expected.has_value(), check.verdict == Verdict::fail,
-                      results::share_of_tolerance(check));
+                      results::difference_over_tolerance(check));
   };
   for (const Run* run : row.runs) {
     const Check* check = run == nullptr ? nullptr : decisive_check(*run);

@@ -48,8 +48,8 @@ TextTable sides_table(const SideComparison& comparison) {
         side.relative_time ? "× " + trimmed(*side.relative_time, 3) : "",
         std::to_string(side.work)};
     if (errors)
-      row.insert(row.end(), {relative(side.median_error.value_or(0), 3, false),
-                             relative(side.largest_error.value_or(0), 3, false)});
+      row.insert(row.end(), {percent_text(side.median_error.value_or(0), 3, false),
+                             percent_text(side.largest_error.value_or(0), 3, false)});
     table.rows.push_back(row);
   }
   return table;

@@ -126,7 +126,7 @@ std::string check_list(const std::vector<Family>& families) {
           const Check& worst = group.worst();
           const auto [role, is_new] = roles.emplace(worst.role, roles.size());
           if (is_new) json["roles"].push_back(worst.role);
-          const double share = share_of_tolerance(worst);
+          const double share = difference_over_tolerance(worst);
           json["rows"].push_back(
               {json["cases"].size(), run->variant, check_title(worst), quantity_text(worst),
                role->second, static_cast<int>(check_status(worst)),

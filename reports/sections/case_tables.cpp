@@ -54,7 +54,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
     return count(static_cast<std::size_t>(n), noun, nouns);
   };
   TextTable table{"Row " + row.row + ", assuming a model discrepancy of " +
-                      relative(row.discrepancy.value_or(0), 2, false) +
+                      percent_text(row.discrepancy.value_or(0), 2, false) +
                       (variant == "base" ? "" : ", variant " + variant),
                   {"Most probable reading of each class", ">Probability"},
                   {},
@@ -77,7 +77,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
                                  ? ""
                                  : " (and " + count_of(reading.readings - 1, "other") +
                                        " that the row cannot distinguish)"),
-            relative(reading.probability.value_or(0), 3, false), reading.values);
+            percent_text(reading.probability.value_or(0), 3, false), reading.values);
   return table;
 }
 
@@ -98,7 +98,7 @@ std::vector<std::string> error_row(const ErrorEstimate& estimate,
   for (const Number& error : estimate.relative) largest = std::max(largest, error.value_or(0));
   const QuantityLabel quantity = parse_quantity(estimate.quantity);
   return {axis_label(to_text(quantity), quantity.unit), values_text(values),
-          "± " + relative(largest, 2, false) +
+          "± " + percent_text(largest, 2, false) +
               (estimate.asymptotic ? "" : " (not in the asymptotic range)")};
 }
 
@@ -153,7 +153,7 @@ std::string effects_title(const Run& run) {
   std::string active;
   std::size_t inactive = 0;
   for (const EffectRow& effect : run.effects) {
-    if (effect.active) add_item(active, spaced(effect.name));
+    if (effect.active) add_item(active, separators_to_spaces(effect.name));
     if (effect.applicable && !effect.active) ++inactive;
   }
   return "Computed with " + (active.empty() ? "bending alone" : active) + "; " +
@@ -164,10 +164,10 @@ TextTable effects_table(const Run& run) {
   TextTable table{effects_title(run),
                   {"Effect", "State", ">Dimensionless number", "=Definition", ">Change without it",
                    ">Cumulative change", "Reason"}};
-  const auto change = [](Number x) { return x ? relative(*x, 3, false) : ""; };
+  const auto change = [](Number x) { return x ? percent_text(*x, 3, false) : ""; };
   for (const EffectRow& e : run.effects) {
     if (!e.applicable) continue;
-    table.rows.push_back({spaced(e.name), e.active ? "on" : "off",
+    table.rows.push_back({separators_to_spaces(e.name), e.active ? "on" : "off",
                           e.dimensionless_number ? trimmed(*e.dimensionless_number, 3) : "",
                           e.number_definition, change(e.own_change), change(e.cumulative_change),
                           e.why});

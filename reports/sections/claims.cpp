@@ -41,7 +41,7 @@ Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entri
 }
 
 std::string number_text(const ClaimInterpretation& interpretation, double value) {
-  if (interpretation.metric == "relative") return relative(value, 3, true);
+  if (interpretation.metric == "relative") return percent_text(value, 3, true);
   if (interpretation.metric == "ratio") return "× " + trimmed(value, 4);
   const std::string unit = display_unit(interpretation.unit);
   return trimmed(value, 4) + (unit.empty() ? "" : "\u202f" + unit);

@@ -53,10 +53,10 @@ TextTable settings_table(const CostStudy& study) {
     std::vector<std::string> row = {error_text(cheapest.error), "none of these settings"};
     if (cheapest.setting) {
       const CostSetting& setting = study.settings[*cheapest.setting];
-      const Number error = study.error(setting);
+      const Number error = study.error_of(setting);
       row = {row[0],
              settings_text(study, cheapest),
-             error ? relative(*error, 2, false) : "–",
+             error ? percent_text(*error, 2, false) : "–",
              times(setting.relative),
              duration(setting.cpu_s),
              work_counters_text(setting.counters)};
@@ -79,7 +79,7 @@ std::string measured_text(const CostStudy& study) {
          " settings on either Pareto front, both fronts contain " +
          std::to_string(repeatability.on_both_fronts) +
          ". At equal accuracy, the times of the two fronts differ by at most " +
-         relative(repeatability.largest_difference.value_or(0), 2, false) + ".";
+         percent_text(repeatability.largest_difference.value_or(0), 2, false) + ".";
 }
 
 std::string study_anchor(const CostStudy& study) {
@@ -143,8 +143,8 @@ Data effects_section(const Results& results, const StudyFigures& figures) {
                    {"Scene", "Selected effects", ">Requested", ">Obtained", ">Selection", ">Run",
                     ">With all effects"}};
   for (const EffectScene& scene : results.effect_scenes) {
-    scenes.rows.push_back({scene.scene, scene.chosen, relative(scene.tolerance, 2, false),
-                           relative(scene.change, 2, false), duration(scene.deciding_s),
+    scenes.rows.push_back({scene.scene, scene.chosen, percent_text(scene.tolerance, 2, false),
+                           percent_text(scene.change, 2, false), duration(scene.deciding_s),
                            duration(scene.chosen_s), duration(scene.whole_s)});
     if (!results.runs.empty()) scenes.links[scene.scene] = case_link(scene.scene);
   }

@@ -45,7 +45,7 @@ namespace {
 
 Counts counts_of(const std::vector<const Run*>& runs) {
   Counts counts;
-  for (const Run* run : runs) add(counts, *run);
+  for (const Run* run : runs) add_check_counts(counts, *run);
   return counts;
 }
 

@@ -93,7 +93,7 @@ Data cell_of(const MatrixCell& cell) {
       with_status(check_status(*cell.check),
                   {{"filled", true},
                    {"value", significant(*cell.check->computed, 4)},
-                   {"difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
+                   {"difference", percent_text(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
                    {"side", d < 0 ? "below" : "above"},
                    {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColorDifference), 2)}});
   if (!cell.comparison) return data;
@@ -102,10 +102,10 @@ Data cell_of(const MatrixCell& cell) {
   if (!c.all_inputs.conclusion.empty())
     words += " If the nominal lengths are as uncertain as their printed digits imply: " +
              c.all_inputs.conclusion;
-  set(data,
-      {{"status_text", words},
-       {"expanded_uncertainty", relative(2 * *c.u_val / std::abs(*cell.check->expected), 2, false)},
-       {"verdict", c.verdict}});
+  set(data, {{"status_text", words},
+             {"expanded_uncertainty",
+              percent_text(2 * *c.u_val / std::abs(*cell.check->expected), 2, false)},
+             {"verdict", c.verdict}});
   return data;
 }
 
@@ -164,8 +164,8 @@ std::string most_probable(const std::string& reference, const Results& results) 
                                   "), the most probable is "
                             : ", ") +
               row.leading.front().title + " (" +
-              relative(row.leading.front().probability.value_or(0), 2, false) +
-              ") for a model discrepancy of " + relative(row.discrepancy.value_or(0), 2, false);
+              percent_text(row.leading.front().probability.value_or(0), 2, false) +
+              ") for a model discrepancy of " + percent_text(row.discrepancy.value_or(0), 2, false);
     }
   }
   return text.empty() ? text : text + ".";
@@ -178,14 +178,14 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
   std::string text = most_probable(subject.reference, results);
   if (text.empty())
     text = "Nearest overall: " + row_title(family, results, best) +
-           ", with a root mean square difference of " + relative(best.distance, 2, false) +
+           ", with a root mean square difference of " + percent_text(best.distance, 2, false) +
            " over " + count(best.checks.size(), entry_word(subject)) + ".";
   std::string missed;
   std::size_t n = 0;
   for (const auto& [entry, nearest] : nearest_of(subject)) {
     if (std::abs(*nearest.check->difference) <= kTargetReached) continue;
     missed += (n++ ? ", " : "") + std::to_string(entry + 1) + " (nearest " +
-              relative(*nearest.check->difference, 2, true) + ")";
+              percent_text(*nearest.check->difference, 2, true) + ")";
   }
   if (n == 0) return text + " Each target is reached within 1\u202f% by at least one variant.";
   return text + " No variant comes within 1\u202f% of " + entry_word(subject) +
@@ -205,7 +205,7 @@ Data matrix_row(const MatrixSubject& subject, const MatrixRow& row, const Family
   const std::size_t complete = subject.rows.front().checks.size();
   return object(
       {{"title", row_title(family, results, row)},
-       {"distance", relative(row.distance, 2, false)},
+       {"distance", percent_text(row.distance, 2, false)},
        {"best", &row == &subject.rows.front() && subject.rows.size() > 1},
        {"partial", row.checks.size() == complete ? ""
                                                  : count(row.checks.size(), entry_word(subject)) +

@@ -82,7 +82,8 @@ std::string theory_text(const Convergence& c) {
 }
 
 std::string observed_text(const Findings& findings) {
-  if (!findings.law.empty()) return "two-term law within " + relative(findings.law.high, 2, false);
+  if (!findings.law.empty())
+    return "two-term law within " + percent_text(findings.law.high, 2, false);
   if (findings.order.empty()) return "–";
   return low_to_high(trimmed(findings.order.low, 3), trimmed(findings.order.high, 3));
 }
@@ -114,7 +115,7 @@ std::string conclusion_of(const Findings& all) {
             std::to_string(all.near) + " of " + std::to_string(all.fitted) + ".";
   if (!all.law.empty())
     text += " If the error has terms of two orders, the sum of both terms fits it within " +
-            relative(all.law.high, 2, false) + ".";
+            percent_text(all.law.high, 2, false) + ".";
   if (all.levels == 0) return text;
   const Number median = all.ratios.empty() ? Number() : Number(harness::upper_median(all.ratios));
   return text + " " + coverage_text(all.covered, count(all.levels, "level"), median) + ".";
@@ -159,15 +160,15 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
   if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
     const UncertaintyCoverage& found = *results.uncertainty_coverage;
     const double rate = static_cast<double>(found.covered) / found.levels;
-    text =
-        coverage_text(found.covered,
-                      std::to_string(found.levels) + " levels (" + relative(rate, 3, false) + ")",
-                      found.median_ratio) +
-        ".";
+    text = coverage_text(
+               found.covered,
+               std::to_string(found.levels) + " levels (" + percent_text(rate, 3, false) + ")",
+               found.median_ratio) +
+           ".";
     if (found.min_coverage && found.max_median_ratio)
-      text += " Required are a coverage of at least " + relative(*found.min_coverage, 3, false) +
-              " and a median of at most " + trimmed(*found.max_median_ratio, 3) +
-              " times the error.";
+      text += " Required are a coverage of at least " +
+              percent_text(*found.min_coverage, 3, false) + " and a median of at most " +
+              trimmed(*found.max_median_ratio, 3) + " times the error.";
   }
   return object({{"has_rows", entries > 0},
                  {"words", "Theoretical and observed orders of " +

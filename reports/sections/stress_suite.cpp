@@ -21,7 +21,7 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
     for (const Check& entry : run->checks) {
       if (entry.name != check) continue;
       ++found.entries;
-      if (!found.worst || worse(entry, *found.worst)) found.worst = &entry, found.run = run;
+      if (!found.worst || is_worse_than(entry, *found.worst)) found.worst = &entry, found.run = run;
     }
   return found;
 }
@@ -31,8 +31,7 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
   const bool is_bound = check.measure == "bound";
-  std::string scope =
-      indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
+  auto scope = indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
   if (indicator.entries > 1) add_item(scope, "worst of " + std::to_string(indicator.entries), "; ");
   return with_status(
       check_status(check),

@@ -139,7 +139,7 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
       };
       auto& entries = harness::find_or_add(known, same, {&info, {}}).entries;
       entries.emplace_back(run, &check);
-      if (worse(check, *entries.front().second)) std::swap(entries.front(), entries.back());
+      if (is_worse_than(check, *entries.front().second)) std::swap(entries.front(), entries.back());
     }
   return known;
 }
@@ -148,7 +148,7 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
 std::string uncertainty_text(const Run& run, const Check& check) {
   const Comparison* found = find_comparison(run, check);
   if (!found || !check.expected) return "–";
-  return "± " + relative(2 * *found->u_val / std::abs(*check.expected), 2, false);
+  return "± " + percent_text(2 * *found->u_val / std::abs(*check.expected), 2, false);
 }
 
 Data known_data(const KnownDiscrepancy& known, const std::string& title, const Results& results) {

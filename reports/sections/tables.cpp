@@ -29,7 +29,7 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
 /// shows the limits of the bound.
 std::string range_text(const Check& check) {
   if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
-  return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
+  return (check.is_known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
 /// State of a table under construction: the results, and the names of checks to which links on the
@@ -152,12 +152,11 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
       };
       Worst& known = harness::find_or_add(worst, same, {&check, run, 0});
       known.entries += group.checks.size();
-      if (worse(check, *known.check)) known.check = &check, known.run = run;
+      if (is_worse_than(check, *known.check)) known.check = &check, known.run = run;
     }
   Data groups = list();
   for (const Worst& w : worst) {
-    std::string entry =
-        w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
+    auto entry = w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
     groups.push_back(group_of_worst(*w.check, entry, linked));
   }
@@ -194,7 +193,8 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
     for (const Check& c : run->checks) {
       const bool is_entry = c.index && c.statistic.empty();
       const Number error =
-          is_entry ? run->half_width(c.quantity, static_cast<std::size_t>(*c.index)) : Number();
+          is_entry ? run->error_half_width(c.quantity, static_cast<std::size_t>(*c.index))
+                   : Number();
       const Tolerance range = c.tolerance.value_or(Tolerance());
       const Comparison* found = find_comparison(*run, c);
       const Comparison entry = found != nullptr ? *found : Comparison();
@@ -205,7 +205,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
       add({info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity});
       add({cell(c.index ? Number(*c.index + 1) : Number()), c.unit, cell(c.expected)});
       add({cell(c.computed), c.measure, cell(c.difference), cell(range.low), cell(range.high)});
-      add({std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
+      add({std::string(c.is_known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
       add({verdict_text(c), c.message, cell(error), cell(entry.u_num), cell(entry.u_input)});
       add({cell(entry.u_reference), cell(entry.u_val), entry.dominant_input});
     }

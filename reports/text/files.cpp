@@ -69,13 +69,13 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   throw std::system_error(EIO, std::generic_category(), path.string() + ": cannot be written");
 }
 
-void replace_files(const fs::path& from, const fs::path& to, const std::string& last,
+void replace_files(const fs::path& from, const fs::path& to, const std::string& last_moved,
                    const std::vector<fs::path>& obsolete) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(from))
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(from));
   std::ranges::sort(files, [&](const fs::path& a, const fs::path& b) {
-    return std::pair(a == last, a) < std::pair(b == last, b);
+    return std::pair(a == last_moved, a) < std::pair(b == last_moved, b);
   });
   for (const fs::path& file : files) {
     const fs::path path = to / file, folder = path.parent_path();

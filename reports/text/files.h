@@ -18,13 +18,14 @@ namespace trammel::reports {
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 /// Moves all files below the folder `from` to the same relative paths below `to`; moves the file
-/// `last` after all others. Then removes `from`, and the files of `obsolete` (paths below `to`)
-/// that were not replaced. Symbolic links are replaced and not followed. Signals that end the
+/// `last_moved` after all others. Then removes `from`, and the files of `obsolete` (paths below
+/// `to`) that were not replaced. Symbolic links are replaced and not followed. Signals that end the
 /// program are blocked during the replacement.
 /// @throws std::system_error  before any file is moved, if a folder has the name of a file or a
 /// file has the name of a folder.
 void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
-                   const std::string& last, const std::vector<std::filesystem::path>& obsolete);
+                   const std::string& last_moved,
+                   const std::vector<std::filesystem::path>& obsolete);
 
 /// A table for a CSV file (RFC 4180, UTF-8), with units in the heads of columns.
 struct Table {

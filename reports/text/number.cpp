@@ -67,7 +67,7 @@ std::string with_sign(double x, int digits) {
   return (x > 0 ? "+" : "") + written(x, digits, true);
 }
 
-std::string relative(double x, int digits, bool sign) {
+std::string percent_text(double x, int digits, bool sign) {
   const auto text = [&](double value) {
     return sign ? with_sign(value, digits) : trimmed(value, digits);
   };
@@ -93,8 +93,7 @@ std::string shortest_decimal(double x, int digits) {
 }
 
 std::string power_of_ten(int exponent) {
-  static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴",
-                                                     "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static constexpr std::array digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = exponent < 0 ? "10⁻" : "10";
   for (const char c : std::to_string(std::abs(exponent))) out += digits[c - '0'];
   return out;
@@ -135,7 +134,7 @@ std::string text_or_dash(harness::Number x, int digits) {
   return x ? trimmed(*x, digits) : "–";
 }
 
-std::string spaced(std::string name) {
+std::string separators_to_spaces(std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return c == '-' || c == '_'; }, ' ');
   return name;

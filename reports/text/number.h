@@ -25,7 +25,7 @@ namespace trammel::reports {
 [[nodiscard]] std::string with_sign(double x, int digits);
 
 /// Returns a relative difference as a percentage; below 1e-5, as a plain number.
-[[nodiscard]] std::string relative(double x, int digits, bool sign);
+[[nodiscard]] std::string percent_text(double x, int digits, bool sign);
 
 /// Returns the number of significant digits, from 4 to 10, that show the difference of two numbers.
 /// Returns 6 if the numbers agree in more than 10 digits.
@@ -61,7 +61,7 @@ inline constexpr int kSampleDigits = 7;
 [[nodiscard]] std::string text_or_dash(harness::Number x, int digits);
 
 /// Replaces hyphens and underscores by spaces.
-[[nodiscard]] std::string spaced(std::string name);
+[[nodiscard]] std::string separators_to_spaces(std::string name);
 
 [[nodiscard]] std::string capitalized(std::string text);
 

@@ -14,7 +14,7 @@ namespace trammel::reports {
 namespace {
 
 std::string words(const std::string& key) {
-  std::string name = spaced(key);
+  std::string name = separators_to_spaces(key);
   for (const char* direction : {" x", " y"})
     if (name.ends_with(direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);

@@ -36,12 +36,11 @@ Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L, bool six
   return N;
 }
 
-TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
-                                               const Vector3d& at) {
+TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes, const Vector3d& L) {
   TriangleInterpolation result;
   result.nodes = std::ssize(nodes);
-  result.N = triangle_shape_functions(at, nodes.size() == 6);
-  const Eigen::Matrix<double, 2, 6> local = local_gradient(nodes.size() == 6, at);
+  result.N = triangle_shape_functions(L, nodes.size() == 6);
+  const Eigen::Matrix<double, 2, 6> local = local_gradient(nodes.size() == 6, L);
   Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1); one row for each L
   for (Index i = 0; i < result.nodes; ++i) {
     const Vector2d& p = nodes[to_size(i)];
@@ -55,9 +54,9 @@ TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
 }
 
 TriangleInterpolation evaluate_shape_functions(const Model& model, const Triangle& triangle,
-                                               const Vector3d& at) {
+                                               const Vector3d& L) {
   return visit_nodes(model, triangle,
-                     [&](const auto& nodes) { return evaluate_shape_functions(nodes, at); });
+                     [&](const auto& nodes) { return evaluate_shape_functions(nodes, L); });
 }
 
 double signed_area(const TrianglePoints& points) {

@@ -55,13 +55,13 @@ struct TriangleInterpolation {
 [[nodiscard]] Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L,
                                                                    bool six_nodes);
 
-/// Evaluates the shape functions of a triangle with 3 or 6 nodes [m] at the area coordinates `at`.
+/// Evaluates the shape functions of a triangle with 3 or 6 nodes [m] at the area coordinates `L`.
 [[nodiscard]] TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
-                                                             const Vector3d& at);
-/// Evaluates the shape functions of a triangle of a model at the area coordinates `at`.
+                                                             const Vector3d& L);
+/// Evaluates the shape functions of a triangle of a model at the area coordinates `L`.
 [[nodiscard]] TriangleInterpolation evaluate_shape_functions(const Model& model,
                                                              const Triangle& triangle,
-                                                             const Vector3d& at);
+                                                             const Vector3d& L);
 
 /// Returns the positions of the first n nodes of a triangle [m].
 template <std::size_t n>

@@ -99,9 +99,9 @@ constexpr double kLeastExponent = -708;
 
 }  // namespace
 
-const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::VectorXd>& query,
-                                               double reach,
-                                               const Eigen::Array<bool, Eigen::Dynamic, 1>* skip) {
+const Eigen::ArrayXd& ExcessDistances::compute(
+    const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
+    const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   // Relative margin that exceeds the round-off error of a sum of squares of a thousand inputs.
   constexpr double kRounding = 1e-12;
@@ -109,11 +109,11 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
   excess_ = (query(0) - samples_.col(0).array()).square();
   for (Index f = 1; f < samples_.cols(); ++f)
     excess_ += (query(f) - samples_.col(f).array()).square();
-  if (skip) excess_ = skip->select(kInfinity, excess_);
+  if (excluded) excess_ = excluded->select(kInfinity, excess_);
   const double least = excess_.minCoeff();
   const double* const begin = excess_.data();
   const Index nearest = std::min(std::find(begin, begin + count, least) - begin, count - 1);
-  const double limit = (least + reach) * (1 + kRounding);
+  const double limit = (least + excess_limit) * (1 + kRounding);
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
@@ -126,7 +126,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
     const auto s = samples_.col(f).segment(first_, near.size()).array();
     near += (m - s) * ((x - s) + (x - m));
   }
-  if (skip) near = skip->segment(first_, near.size()).select(kInfinity, near);
+  if (excluded) near = excluded->segment(first_, near.size()).select(kInfinity, near);
   // Round-off may have selected the second nearest sample as the nearest one. Subtract the minimum,
   // so that no difference of squared distances is negative.
   near -= near.minCoeff();

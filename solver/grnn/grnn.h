@@ -84,8 +84,8 @@ class ExcessDistances {
   /// @param reach  limit above which the excess need not be exact: samples with a larger excess may
   ///   get any value that is at least `reach`.
   /// @param skip   samples to leave out (their excess is infinite), or null.
-  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
-                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
+  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
+                                const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded = nullptr);
 
   /// Ends of the index range [first, end) of samples near the query of the last call of `compute`.
   /// It contains all samples whose excess is below the argument `reach` of this call.

@@ -22,7 +22,7 @@ void check_sigmas(const Eigen::VectorXd& sigmas) {
 
 /// Returns the sample indices 0, 1, ..., optionally in the random order of the Fisher-Yates
 /// algorithm. The result of std::shuffle would differ between standard libraries.
-std::vector<Index> theoretical_order(Index samples, bool shuffled, std::uint64_t seed) {
+std::vector<Index> sample_order(Index samples, bool shuffled, std::uint64_t seed) {
   std::vector<Index> order(to_size(samples));
   std::iota(order.begin(), order.end(), Index{0});
   std::mt19937_64 random(seed);
@@ -37,22 +37,21 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   const Index folds = validation.folds == 0 ? samples : validation.folds;
   require(folds >= 2, "cross-validation requires at least two folds");
   require(samples >= folds, "cross-validation requires at least one sample in each fold");
-  std::vector<Index> fold =
-      theoretical_order(samples, validation.order == FoldOrder::shuffled, validation.seed);
+  auto fold = sample_order(samples, validation.order == FoldOrder::shuffled, validation.seed);
   const bool blocks = validation.order == FoldOrder::blocks;
   for (Index& p : fold) p = blocks ? p * folds / samples : p % folds;
   return fold;
 }
 
-std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
-  require(train >= 1 && train <= samples,
+std::vector<bool> training_mask(Index samples, Index count, Split split, std::uint64_t seed) {
+  require(count >= 1 && count <= samples,
           "the number of training samples must be between 1 and the number of samples");
-  const std::vector<Index> order = theoretical_order(samples, split == Split::shuffled, seed);
+  const std::vector<Index> order = sample_order(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
-  for (Index k = 0; k < train; ++k) {
-    // The k-th interleaved training sample is in the middle of the k-th of `train` equal intervals
+  for (Index k = 0; k < count; ++k) {
+    // The k-th interleaved training sample is in the middle of the k-th of `count` equal intervals
     // of the sample indices.
-    const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
+    const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * count) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
   return trains;

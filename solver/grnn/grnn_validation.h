@@ -36,9 +36,9 @@ enum class Split {
 };
 
 /// Selects the training samples.
-/// @return  for each sample: true if it is one of the `train` training samples.
+/// @return  for each sample: true if it is one of the `count` training samples.
 /// @throws ModelError  unless 1 <= train <= samples.
-[[nodiscard]] std::vector<bool> training_mask(Index samples, Index train, Split split,
+[[nodiscard]] std::vector<bool> training_mask(Index samples, Index count, Split split,
                                               std::uint64_t seed = 1);
 
 /// Returns the root mean square of the prediction errors. The network predicts each sample without

@@ -148,9 +148,9 @@ Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, doubl
   return f;
 }
 
-Beam::Square Beam::tangent(const Coordinates&, double stiffness, double damping) const {
+Beam::Square Beam::tangent(const Coordinates&, double stiffness_factor, double damping) const {
   Square K = Square::Zero();
-  K(kTurns, kTurns) = (stiffness + damping) * (EI / length * beam_interpolation().bending);
+  K(kTurns, kTurns) = (stiffness_factor + damping) * (EI / length * beam_interpolation().bending);
   return K;
 }
 
@@ -180,7 +180,7 @@ Beam::Coordinates Beam::distributed_load(const Vector2d& force_per_length) const
   return f;
 }
 
-Beam::Rows Beam::compliance() const {
+Beam::Rows Beam::row_compliance() const {
   Rows c;
   for (int g = 0; g < kPoints; ++g) {
     const double w = beam_interpolation().weight[g] * length;
@@ -190,7 +190,7 @@ Beam::Rows Beam::compliance() const {
   return c;
 }
 
-Beam::Rows Beam::penalty(const TangentCoefficients& coefficients) const {
+Beam::Rows Beam::row_penalty(const TangentCoefficients& coefficients) const {
   const double k = 12 * EI / (length * length);
   Rows rho;
   for (int g = 0; g < kPoints; ++g) {

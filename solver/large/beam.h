@@ -75,14 +75,14 @@ struct Beam : ElementSizes<12, 6> {
 
   /// Returns the nodal moments of bending [N m]. tau is the coefficient of strain-rate damping [s].
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
-  /// Returns the bending stiffness matrix times (`stiffness` + `damping`). The matrix is constant,
-  /// because the curvature kappa is linear in the rotations.
-  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
-  /// Returns the mean nodal moments of bending in a time step from q0 to q1. `rate` is the damping
-  /// coefficient tau divided by the step.
+  /// Returns the bending stiffness matrix times (`stiffness_factor` + `damping`). The matrix is
+  /// constant, because the curvature kappa is linear in the rotations.
+  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness_factor, double damping) const;
+  /// Returns the mean nodal moments of bending in a time step from q0 to q1. `damping_over_step` is
+  /// the damping coefficient tau divided by the step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
-                                                     double rate) const {
-    return forces((q0 + q1) / 2, q1 - q0, rate);
+                                                     double damping_over_step) const {
+    return forces((q0 + q1) / 2, q1 - q0, damping_over_step);
   }
   /// Returns the strain energy of bending [J].
   [[nodiscard]] double energy(const Coordinates& q) const;
@@ -90,11 +90,11 @@ struct Beam : ElementSizes<12, 6> {
   /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const;
   /// Returns the compliance of each constraint row: w h / EA (stretch) or w h / kGA (shear).
-  [[nodiscard]] Rows compliance() const;
+  [[nodiscard]] Rows row_compliance() const;
   /// Returns the penalties rho of the constraint rows (`KktMatrix`). The stiffness term of rho is a
   /// shear stiffness 12 EI/h^2, which is comparable with the bending stiffness. The mass term is
   /// the mass of the element.
-  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const;
+  [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const;
   /// Returns the unit normal of the cross section at a node, which is t0 rotated by theta.
   [[nodiscard]] Vector2d section_normal(const Coordinates& q, int node) const {
     return rotated(axis, q[3 * node + 2]);

@@ -17,10 +17,10 @@ class ConsistentInitialization {
       : system_(system),
         state_(state),
         step_(step),
-        n_(system.coordinates()),
-        m_(system.constraints()),
-        rigid_((system.compliance().array() == 0).cast<double>()),
-        matrix_(n_, m_, system.blocks()),
+        n_(system.coordinate_count()),
+        m_(system.constraint_count()),
+        rigid_((system.row_compliance().array() == 0).cast<double>()),
+        matrix_(n_, m_, system.coupled_unknowns()),
         constraint_residual_(VectorXd::Zero(m_)),
         constraint_rate_(VectorXd::Zero(m_)),
         force_residual_(VectorXd::Zero(n_)),
@@ -83,7 +83,7 @@ class ConsistentInitialization {
   void assemble(double fraction) {
     const double stiffness = fraction * fraction * step_ * step_;
     matrix_.clear();
-    system_.tangent(state_, {1, 0, stiffness, 1 / stiffness}, matrix_);
+    system_.add_tangent(state_, {1, 0, stiffness, 1 / stiffness}, matrix_);
   }
 
   bool project_positions() {
@@ -95,7 +95,7 @@ class ConsistentInitialization {
       if (now == 0 || (now < 1e-12 && now > 0.5 * last)) return true;
       last = now;
       assemble(0.5);
-      if (!matrix_.factor(system_.symmetric())) return false;
+      if (!matrix_.factor(system_.has_symmetric_tangent())) return false;
       if (!solve(VectorXd::Zero(n_), constraint_residual_)) return false;
       state_.q += solution_.head(n_);
     }
@@ -115,7 +115,7 @@ class ConsistentInitialization {
     const double energy = 1e6 * std::max(mass_scale(), stiffness);
     const auto penalty = [&](Index k) { return energy / (scale[k] * scale[k]); };
     for (const auto& [k, value] : given) matrix_.add_diagonal(k, penalty(k));
-    if (!matrix_.factor(system_.symmetric())) return false;
+    if (!matrix_.factor(system_.has_symmetric_tangent())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);
     for (int i = 0; i < 8; ++i) {
       // Each pass increases the penalty forces by the penalties times the remaining errors of the
@@ -154,7 +154,7 @@ class ConsistentInitialization {
     system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
     const double tau = system_.strain_rate_damping();
     for (Index r = 0; r < m_; ++r) {
-      const double c = system_.compliance()[r];
+      const double c = system_.row_compliance()[r];
       state_.lambda[r] = c > 0 ? (constraint_residual_[r] + tau * constraint_rate_[r]) / c : 0.0;
     }
     const VectorXd bias = acceleration_bias();
@@ -193,7 +193,7 @@ class ConsistentInitialization {
 
   bool solve_with_mass_scaling(double fraction, const VectorXd& bias) {
     assemble(fraction);
-    return matrix_.factor(system_.symmetric()) && solve(-force_residual_, bias);
+    return matrix_.factor(system_.has_symmetric_tangent()) && solve(-force_residual_, bias);
   }
 
   /// Returns d(G v + dg/dt)/dt for zero acceleration, by a central difference along the motion. Ten
@@ -267,7 +267,7 @@ PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& sys
   // Velocity of each coordinate, or NaN. If several members or nodes share a coordinate, the value
   // that is set last is used. A map would be too slow, because damping requires these velocities in
   // every iteration.
-  VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
+  VectorXd values = VectorXd::Constant(system.coordinate_count(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;
   };
@@ -276,7 +276,7 @@ PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& sys
     const Vector2d& from = system.model().nodes[to_size(moved.nodes[0])].position;
     const Vector2d along = system.model().nodes[to_size(moved.nodes[1])].position - from;
     for (std::size_t a = 0; a < element.nodes(); ++a) {
-      const Index* coordinate = &element.coordinates[element.stride() * a];
+      const Index* coordinate = &element.coordinates[element.coordinates_per_node() * a];
       const double s = (element.position(a) - from).dot(along) / along.squaredNorm();
       for (Index k = 0; k < 2; ++k)
         set(coordinate[k], (1 - s) * node(moved.nodes[0], k) + s * node(moved.nodes[1], k));

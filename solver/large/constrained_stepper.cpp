@@ -14,41 +14,42 @@ namespace trammel::solver::large_motion {
 MotionResiduals::MotionResiduals(const ConstrainedSystem& system)
     : system_(system),
       row_unit_(system.row_units()),
-      matrix_(system.coordinates(), system.constraints(), system.blocks()),
-      unknowns_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      matrix_(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns()),
+      unknowns_(VectorXd::Zero(system.coordinate_count() + system.constraint_count())),
       terms_(unknowns_),
       magnitudes_(unknowns_),
-      constraint_residual_(VectorXd::Zero(system.constraints())),
+      constraint_residual_(VectorXd::Zero(system.constraint_count())),
       constraint_rate_(constraint_residual_) {}
 
-void MotionResiduals::add_terms(const TangentCoefficients& coefficients, const State& state) {
+void MotionResiduals::add_term_magnitudes(const TangentCoefficients& coefficients,
+                                          const State& state) {
   matrix_.clear();
-  system_.tangent(state, coefficients, matrix_);
+  system_.add_tangent(state, coefficients, matrix_);
   matrix_.term_magnitudes(unknowns_, magnitudes_);
   terms_ += magnitudes_;
 }
 
-double MotionResiduals::equation_of_motion(const State& state, const VectorXd& residual) {
-  const Index n = system_.coordinates();
+double MotionResiduals::motion_residual(const State& state, const VectorXd& residual) {
+  const Index n = system_.coordinate_count();
   terms_.setZero();
   unknowns_.head(n) = state.a;
   unknowns_.tail(state.lambda.size()).setZero();
   // Use a negligible stiffness instead of zero, because rows of massless coordinates would be
   // divided by zero.
-  add_terms({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
+  add_term_magnitudes({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
-  add_terms({}, state);
+  add_term_magnitudes({}, state);
   const auto scale = system_.scale().array();
   const double least = n > 0 ? kLeastFraction * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);
   return row_backward_error(residual, terms_.head(n));
 }
 
-ConstraintGaps MotionResiduals::constraints(const State& state) {
+ConstraintGaps MotionResiduals::largest_gaps(const State& state) {
   system_.constraint_residual(state, constraint_residual_, constraint_rate_);
   ConstraintGaps gaps;
   for (Index r = 0; r < constraint_residual_.size(); ++r) {
-    if (system_.compliance()[r] > 0) continue;
+    if (system_.row_compliance()[r] > 0) continue;
     const double position = std::abs(constraint_residual_[r]), rate = std::abs(constraint_rate_[r]);
     gaps.position = nan_max(gaps.position, position);
     gaps.rate = nan_max(gaps.rate, rate);
@@ -60,11 +61,11 @@ ConstraintGaps MotionResiduals::constraints(const State& state) {
 
 AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
   constexpr Index kLargest = 64;  // largest number of coordinates of a dense determinant
-  const Index n = system.coordinates();
-  const Index rigid = (system.compliance().array() == 0).count();
+  const Index n = system.coordinate_count();
+  const Index rigid = (system.row_compliance().array() == 0).count();
   freedom_ = n - rigid;
-  const bool is_mechanism = rigid == system.constraints() && (freedom_ == 0 || freedom_ == 1);
-  if (n > 0 && n <= kLargest && is_mechanism) matrix_.emplace(n, rigid, system.blocks());
+  const bool is_mechanism = rigid == system.constraint_count() && (freedom_ == 0 || freedom_ == 1);
+  if (n > 0 && n <= kLargest && is_mechanism) matrix_.emplace(n, rigid, system.coupled_unknowns());
 }
 
 bool AssemblyBranch::changes(const State& from, const State& to) {
@@ -81,11 +82,11 @@ bool AssemblyBranch::changes(const State& from, const State& to) {
 }
 
 double AssemblyBranch::branch_sign(const State& state) {
-  const Index n = system_.coordinates();
+  const Index n = system_.coordinate_count();
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;
   matrix_->clear();
-  system_.tangent(state, coefficients, *matrix_);
+  system_.add_tangent(state, coefficients, *matrix_);
   Eigen::MatrixXd G(n, n);
   G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_units());
   if (freedom_ == 1) {
@@ -168,22 +169,22 @@ ConstrainedStepper::ConstrainedStepper(const ConstrainedSystem& system,
                                        const TransientOptions& options, const State& start,
                                        const Observer& observe, const Scheme& scheme)
     : system_(system),
-      matrix_(system.coordinates(), system.constraints(), system.blocks()),
+      matrix_(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns()),
       from_(start),
       to_(start),
-      constraint_residual_(VectorXd::Zero(system.constraints())),
+      constraint_residual_(VectorXd::Zero(system.constraint_count())),
       constraint_rate_(constraint_residual_),
       options_(options),
       observe_(observe),
       scheme_(scheme),
       branch_(system),
       residuals_(system),
-      projects_(scheme.keeps_rates && (system.compliance().array() == 0).any()),
+      projects_(scheme.keeps_rates && (system.row_compliance().array() == 0).any()),
       A0_(start.a),
       A1_(start.a),
-      velocity_correction_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      velocity_correction_(VectorXd::Zero(system.coordinate_count() + system.constraint_count())),
       position_correction_(velocity_correction_),
-      force_residual_(VectorXd::Zero(system.coordinates())) {}
+      force_residual_(VectorXd::Zero(system.coordinate_count())) {}
 
 StepReport ConstrainedStepper::attempt(const Step& step) {
   const double h = step.size;
@@ -202,7 +203,7 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   }
   StepReport report = iterate(step);
   if (report.status == Status::solved) {
-    const auto norm = [this](const VectorXd& x) { return size(x); };
+    const auto norm = [this](const VectorXd& x) { return scaled_norm(x); };
     relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_);
     // If a system remains at rest under changing forces, its motion consists of the round-off
     // errors of these forces. Compute the residual of the relations of the time scheme again,
@@ -212,7 +213,8 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
                                              acceleration_slope(h) * correction_roundoff(h));
     work_ = A1_ - A0_;
     if (options_.adaptive)
-      report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
+      report.error =
+          scheme_.error_constant * h * h * scaled_norm(work_) / options_.adaptive->relative;
     // A motion straight through a singular position changes the orientation for steps of any size.
     // A change is therefore accepted in steps of at most this fraction of the nominal step.
     constexpr double kShortest = 1e-3;
@@ -225,20 +227,19 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   return report;
 }
 
-void ConstrainedStepper::accept(const Step& step, bool inspect, Evidence& evidence) {
+void ConstrainedStepper::accept(const Step& step, bool check_motion, Evidence& evidence) {
   advance();
   last_step_ = from_.t - to_.t;
   first_ = false;
-  const ConstraintGaps gaps = residuals_.constraints(from_);
+  const ConstraintGaps gaps = residuals_.largest_gaps(from_);
   evidence.add(Residual::constraints, gaps.relative_position);
   if (scheme_.keeps_rates) evidence.add(Residual::constraints, step.size * gaps.relative_rate);
-  if (inspect) {
+  if (check_motion) {
     accepted_residual(force_residual_);
     evidence.add(Residual::equation_of_motion, relation_residual_);
-    evidence.add(Residual::equation_of_motion,
-                 residuals_.equation_of_motion(from_, force_residual_));
+    evidence.add(Residual::equation_of_motion, residuals_.motion_residual(from_, force_residual_));
   }
-  if (options_.sample_times.empty()) show();
+  if (options_.sample_times.empty()) output_state();
 }
 
 void ConstrainedStepper::advance() {
@@ -270,7 +271,7 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
   // The energy-momentum method may use more iterations than the generalized-alpha method. It
   // conserves energy only if the iteration converges fully, which may be slow.
   const int max_iterations = scheme_.keeps_rates ? 20 : 30;
-  const Index n = system_.coordinates();
+  const Index n = system_.coordinate_count();
   const double h = step.size;
   StepReport report;
   to_.t = step.end;
@@ -287,13 +288,13 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
       matrix_.clear();
       factored_step_ = h;
       fresh = true;
-      if (!matrix_.factor(tangent(h, exact))) return report;
+      if (!matrix_.factor(assemble_tangent(h, exact))) return report;
     }
     correct(h);
     if (!velocity_correction_.allFinite() || !position_correction_.allFinite()) return report;
     report.iterations = i + 1;
-    convergence.record(size(velocity_correction_.head(n)),
-                       size(position_correction_.head(n) - velocity_correction_.head(n)));
+    convergence.record(scaled_norm(velocity_correction_.head(n)),
+                       scaled_norm(position_correction_.head(n) - velocity_correction_.head(n)));
     report.residual = convergence.last();
     if (has_converged(h, convergence)) {
       report.status = Status::solved;
@@ -306,21 +307,21 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
   return report;
 }
 
-bool ConstrainedStepper::tangent(double h, bool /*exact*/) {
+bool ConstrainedStepper::assemble_tangent(double h, bool /*exact*/) {
   TangentCoefficients coefficients;
   coefficients.mass = 1;
   coefficients.damping = scheme_.relations.velocity_gain() * h;
   coefficients.stiffness = scheme_.relations.position_gain() * h * h;
   coefficients.compliance =
       acceleration_slope(h) / (1 + system_.strain_rate_damping() * velocity_slope(h));
-  system_.tangent(to_, coefficients, matrix_);
-  return system_.symmetric();
+  system_.add_tangent(to_, coefficients, matrix_);
+  return system_.has_symmetric_tangent();
 }
 
 double ConstrainedStepper::elastic_residual(Index r, double h) const {
   const double tau = system_.strain_rate_damping();
   const double sum = constraint_residual_[r] + tau * constraint_rate_[r];
-  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * velocity_slope(h));
+  return -(sum - system_.row_compliance()[r] * to_.lambda[r]) / (1 + tau * velocity_slope(h));
 }
 
 /// Computes one Newton correction of a step. Positions are corrected first, with the residuals of
@@ -329,20 +330,20 @@ double ConstrainedStepper::elastic_residual(Index r, double h) const {
 /// the first, so that the corrections decrease quadratically, even near a singular position. The
 /// difference between the corrections is the position correction p (constrained_stepper.h).
 void ConstrainedStepper::correct(double h) {
-  const Index n = system_.coordinates(), m = system_.constraints();
-  residual(velocity_correction_.head(n));
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
+  compute_residual(velocity_correction_.head(n));
   velocity_correction_.head(n) /= -acceleration_slope(h);
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   for (Index r = 0; r < m; ++r)
     velocity_correction_[n + r] =
-        system_.compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
+        system_.row_compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
   position_correction_ = velocity_correction_;
   matrix_.solve(position_correction_);
   to_.q += position_correction_.head(n);
   if (projects_) {
     system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
     for (Index r = 0; r < m; ++r) {
-      if (system_.compliance()[r] == 0)
+      if (system_.row_compliance()[r] == 0)
         velocity_correction_[n + r] = -constraint_rate_[r] / velocity_slope(h);
     }
     matrix_.solve(velocity_correction_);
@@ -359,11 +360,11 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
   // estimate includes only one rounding of each force.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
-      scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
-  const double position = size(to_.q);
+      scheme_.acceleration_share * scheme_.relations.beta * h * h * scaled_norm(A1_);
+  const double position = scaled_norm(to_.q);
   const double limit =
       std::max(scheme_.resolution * acceleration, scheme_.position_resolution * position);
-  return convergence.converged(acceleration, h * size(to_.v), position, limit) ||
+  return convergence.converged(acceleration, h * scaled_norm(to_.v), position, limit) ||
          (scheme_.keeps_rates && convergence.stalled() &&
           convergence.last() <= kRoundoffErrors * correction_roundoff(h));
 }
@@ -372,14 +373,15 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
 /// arbitrary signs of these errors. It limits the accuracy of a small motion under large forces in
 /// mutual equilibrium, or near a singular position.
 double ConstrainedStepper::correction_roundoff(double h) const {
-  const Index n = system_.coordinates(), m = system_.constraints();
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
   VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);
   multipliers.tail(m) = to_.lambda / acceleration_slope(h);
   matrix_.term_magnitudes(multipliers, errors);
-  errors.tail(m) = (system_.compliance().array() == 0).select(size(to_.q) * system_.row_units(), 0);
+  errors.tail(m) =
+      (system_.row_compliance().array() == 0).select(scaled_norm(to_.q) * system_.row_units(), 0);
   errors = kEps * errors.cwiseProduct(start_vectors(n + m, 1));
   matrix_.solve(errors);
-  return size(errors.head(n));
+  return scaled_norm(errors.head(n));
 }
 
 namespace {
@@ -408,7 +410,7 @@ class EnergyMomentum final : public ConstrainedStepper {
         energy_(system.energy(start)) {}
 
   void restart() override {}
-  void add_energy(Evidence& evidence) const override {
+  void add_energy_residual(Evidence& evidence) const override {
     const double size = largest_energy_ + throughput_;
     evidence.add(Residual::energy, size > 0 ? largest_gap_ / size : 0);
   }
@@ -418,13 +420,13 @@ class EnergyMomentum final : public ConstrainedStepper {
     system_.constraint_residual(from_, previous_constraint_residual_, constraint_rate_);
     to_.lambda = previous_mean_lambda_;
   }
-  void residual(Eigen::Ref<VectorXd> r) override {
+  void compute_residual(Eigen::Ref<VectorXd> r) override {
     system_.discrete_gradient_residual(from_, to_, to_.lambda, r);
   }
   void accepted_residual(Eigen::Ref<VectorXd> r) const override {
     system_.discrete_gradient_residual(to_, from_, previous_mean_lambda_, r);
   }
-  bool tangent(double h, bool exact) override;
+  bool assemble_tangent(double h, bool exact) override;
   [[nodiscard]] double elastic_residual(Index r, double h) const override;
   void end_step(double h) override;
   void advance() override;
@@ -438,7 +440,7 @@ class EnergyMomentum final : public ConstrainedStepper {
   double gap_ = 0, largest_gap_ = 0, largest_energy_ = 0, throughput_ = 0;  ///< [J]
 };
 
-bool EnergyMomentum::tangent(double h, bool exact) {
+bool EnergyMomentum::assemble_tangent(double h, bool exact) {
   midpoint_.t = (from_.t + to_.t) / 2;
   midpoint_.load = (from_.load + to_.load) / 2;
   midpoint_.gravity = to_.gravity;
@@ -453,15 +455,15 @@ bool EnergyMomentum::tangent(double h, bool exact) {
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }
-  system_.tangent(midpoint_, coefficients, matrix_);
-  return system_.symmetric();
+  system_.add_tangent(midpoint_, coefficients, matrix_);
+  return system_.has_symmetric_tangent();
 }
 
 double EnergyMomentum::elastic_residual(Index r, double h) const {
   const double g0 = previous_constraint_residual_[r], g1 = constraint_residual_[r];
   const double rate = system_.strain_rate_damping() / h;
   const double sum = (g0 + g1) / 2 + rate * (g1 - g0);
-  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (0.5 + rate);
+  return -(sum - system_.row_compliance()[r] * to_.lambda[r]) / (0.5 + rate);
 }
 
 /// Computes the multipliers at the end of the step. Multipliers of elastic rows follow from the
@@ -472,8 +474,8 @@ void EnergyMomentum::end_step(double h) {
   mean_lambda_ = to_.lambda;
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   to_.lambda = mean_lambda_ + extrapolation * (mean_lambda_ - previous_mean_lambda_);
-  for (Index r = 0; r < system_.constraints(); ++r) {
-    const double c = system_.compliance()[r];
+  for (Index r = 0; r < system_.constraint_count(); ++r) {
+    const double c = system_.row_compliance()[r];
     if (c > 0) to_.lambda[r] = (constraint_residual_[r] + tau * constraint_rate_[r]) / c;
   }
 }

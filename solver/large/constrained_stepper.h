@@ -29,11 +29,11 @@ class MotionResiduals {
   /// Returns the largest residual of a row of the equation of motion, relative to the terms |M| |a|
   /// + |K| |q| + |G^T| |lambda| of this row. `state` is the state at the end of a step, and
   /// `residual` the residual in the form of the time scheme.
-  [[nodiscard]] double equation_of_motion(const State& state, const VectorXd& residual);
-  [[nodiscard]] ConstraintGaps constraints(const State& state);
+  [[nodiscard]] double motion_residual(const State& state, const VectorXd& residual);
+  [[nodiscard]] ConstraintGaps largest_gaps(const State& state);
 
  private:
-  void add_terms(const TangentCoefficients& coefficients, const State& state);
+  void add_term_magnitudes(const TangentCoefficients& coefficients, const State& state);
 
   const ConstrainedSystem& system_;
   VectorXd row_unit_;  ///< unit of each constraint [m or rad]
@@ -91,9 +91,9 @@ class ConstrainedStepper : public Stepper {
                      const State& start, const Observer& observe);
 
   [[nodiscard]] StepReport attempt(const Step& step) override;
-  void accept(const Step& step, bool inspect, Evidence& evidence) override;
+  void accept(const Step& step, bool check_motion, Evidence& evidence) override;
   void restart() override { first_ = true; }
-  void show() override {
+  void output_state() override {
     if (observe_) observe_(from_);
   }
   [[nodiscard]] std::string describe(const StepReport& report) const override;
@@ -101,7 +101,7 @@ class ConstrainedStepper : public Stepper {
   [[nodiscard]] const State& state() const { return from_; }
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
   /// Adds the residual of the energy balance of all steps, if the method conserves energy.
-  virtual void add_energy(Evidence& /*evidence*/) const {}
+  virtual void add_energy_residual(Evidence& /*evidence*/) const {}
 
  protected:
   /// Parameters of the time scheme, and limits at which its Newton iteration ends [-].
@@ -128,11 +128,11 @@ class ConstrainedStepper : public Stepper {
 
  private:
   /// Computes the residual r of the equation of motion in an attempted step.
-  virtual void residual(Eigen::Ref<VectorXd> r) { system_.force_residual(to_, r); }
+  virtual void compute_residual(Eigen::Ref<VectorXd> r) { system_.force_residual(to_, r); }
   /// Computes the residual r of the equation of motion in the last accepted step from its states.
   virtual void accepted_residual(Eigen::Ref<VectorXd> r) const { system_.force_residual(from_, r); }
   /// Assembles the tangent matrix of a step of size h. @returns true if it is symmetric.
-  virtual bool tangent(double h, bool exact);
+  virtual bool assemble_tangent(double h, bool exact);
   /// Returns the residual of the elastic constraint row r with compliance c and damping tau: -(g +
   /// tau dg/dt - c lambda), divided by d(g + tau dg/dt)/dg.
   [[nodiscard]] virtual double elastic_residual(Index r, double h) const;
@@ -144,7 +144,7 @@ class ConstrainedStepper : public Stepper {
   void correct(double h);
   [[nodiscard]] bool has_converged(double h, const StepConvergence& convergence) const;
   [[nodiscard]] double correction_roundoff(double h) const;
-  [[nodiscard]] double size(const Eigen::Ref<const VectorXd>& x) const {
+  [[nodiscard]] double scaled_norm(const Eigen::Ref<const VectorXd>& x) const {
     return weighted_rms_norm(system_, x);
   }
   /// Returns the change of the acceleration a per unit change of the position q in a step.

@@ -54,10 +54,10 @@ class ConstrainedSystem {
   ConstrainedSystem() = default;
   virtual ~ConstrainedSystem() = default;
 
-  [[nodiscard]] virtual Index coordinates() const = 0;
-  [[nodiscard]] virtual Index constraints() const = 0;
+  [[nodiscard]] virtual Index coordinate_count() const = 0;
+  [[nodiscard]] virtual Index constraint_count() const = 0;
   /// Returns the compliance c >= 0 of each constraint row.
-  [[nodiscard]] virtual const VectorXd& compliance() const = 0;
+  [[nodiscard]] virtual const VectorXd& row_compliance() const = 0;
   /// Returns the reference value of each coordinate, by which its changes are divided: the model
   /// size [m] for translations, 1 rad for rotations.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
@@ -66,7 +66,7 @@ class ConstrainedSystem {
   [[nodiscard]] virtual VectorXd row_units() const;
   /// Returns, for each element, the indices of the unknowns that it couples. They define the
   /// sparsity pattern of `KktMatrix`.
-  [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
+  [[nodiscard]] virtual std::vector<std::vector<Index>> coupled_unknowns() const = 0;
 
   /// Computes the residual of the equation of motion, r = M a - f + G^T lambda.
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
@@ -75,10 +75,10 @@ class ConstrainedSystem {
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                                    Eigen::Ref<VectorXd> rate) const = 0;
   /// Adds the tangent matrix of a state to `matrix`, which the caller has cleared.
-  virtual void tangent(const State& state, const TangentCoefficients& coefficients,
-                       KktMatrix& matrix) const = 0;
+  virtual void add_tangent(const State& state, const TangentCoefficients& coefficients,
+                           KktMatrix& matrix) const = 0;
   /// Returns false if the tangent matrix is not symmetric, as with follower loads.
-  [[nodiscard]] virtual bool symmetric() const { return true; }
+  [[nodiscard]] virtual bool has_symmetric_tangent() const { return true; }
   /// Returns the coefficient tau of strain-rate damping [s].
   [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
   /// Returns the factor on the loads at time t.
@@ -93,13 +93,13 @@ class ConstrainedSystem {
 
 /// Returns the model size [m], which scales translations.
 [[nodiscard]] inline double length_scale(const ConstrainedSystem& system) {
-  if (system.coordinates() == 0) return 1;
+  if (system.coordinate_count() == 0) return 1;
   const double least = system.scale().minCoeff();
   return least < 1 ? least : system.scale().maxCoeff();
 }
 
 inline VectorXd ConstrainedSystem::row_units() const {
-  return VectorXd::Constant(constraints(), length_scale(*this));
+  return VectorXd::Constant(constraint_count(), length_scale(*this));
 }
 
 /// Returns the root mean square of a change of the coordinates. Each change is divided by the

@@ -96,9 +96,9 @@ class ElementGroup {
     where_.push_back(where);
   }
   [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
-  [[nodiscard]] Index rows() const { return R * size(); }
+  [[nodiscard]] Index constraint_row_count() const { return R * size(); }
   [[nodiscard]] const Element& element(Index e) const { return elements_[to_size(e)]; }
-  [[nodiscard]] const CoordinateIndices<N>& coordinates(Index e) const {
+  [[nodiscard]] const CoordinateIndices<N>& coordinate_indices(Index e) const {
     return where_[to_size(e)];
   }
   [[nodiscard]] Index first_constraint_row(Index e) const { return first_constraint_row_ + R * e; }
@@ -114,7 +114,7 @@ class ElementGroup {
     if constexpr (kHasMass) {
       for (Index e = 0; e < size(); ++e) {
         const Square M = element(e).mass();
-        const CoordinateIndices<N>& where = coordinates(e);
+        const CoordinateIndices<N>& where = coordinate_indices(e);
         for (Index i = 0; i < M.rows(); ++i) {
           for (Index j = 0; j < M.cols(); ++j)
             if (M(i, j) != 0) masses.emplace_back(where[i], where[j], M(i, j));
@@ -127,19 +127,19 @@ class ElementGroup {
   /// compliances and units of its constraint rows. Joints also get the stiffness and mass of the
   /// joined members or bodies, which determine their penalties. Coordinates with indices of at
   /// least `free` are held by supports.
-  void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
+  void append_system_rows(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
       std::vector<Index>& block = system.blocks.emplace_back();
-      for (const Index k : coordinates(e)) block.push_back(k < free ? k : -1);
+      for (const Index k : coordinate_indices(e)) block.push_back(k < free ? k : -1);
       if constexpr (R > 0) {
         for (Index r = 0; r < R; ++r) block.push_back(free + first_constraint_row(e) + r);
-        const std::span<const Index> joined(coordinates(e).data(), where_[to_size(e)].size());
+        const std::span coupled(coordinate_indices(e).data(), where_[to_size(e)].size());
         Element& own = elements_[to_size(e)];
-        system.compliance.segment<R>(first_constraint_row(e)) = own.compliance();
+        system.compliance.segment<R>(first_constraint_row(e)) = own.row_compliance();
         double lever = 0;
         if constexpr (requires { own.offset; }) lever = own.offset.norm();
-        const RowScales row = scales.row_scales(joined, lever);
+        const RowScales row = scales.row_scales(coupled, lever);
         system.unit.segment<R>(first_constraint_row(e)).setConstant(row.unit);
         if constexpr (requires { own.stiffness_scale; }) {
           own.stiffness_scale = row.stiffness;
@@ -150,18 +150,18 @@ class ElementGroup {
   }
 
   /// Adds the terms -f + G^T lambda of the equation of motion, with strain-rate damping tau.
-  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
+  void add_forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
-      const Coordinates q = gather<N>(state.q, coordinates(e));
+      const Coordinates q = gather<N>(state.q, coordinate_indices(e));
       Coordinates f = Coordinates::Zero(q.size());
       if constexpr (R > 0)
         f += evaluate_rows(e, q, state.t).gradient.transpose() *
              state.lambda.segment<R>(first_constraint_row(e));
       if constexpr (kIsElastic)
-        f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
+        f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinate_indices(e)) : q, tau);
       if constexpr (kIsLoad) f -= state.load * element(e).load(q);
-      scatter<N>(f, coordinates(e), r);
+      scatter<N>(f, coordinate_indices(e), r);
     }
   }
 
@@ -169,8 +169,8 @@ class ElementGroup {
   void add_load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
     if constexpr (kIsLoad) {
       for (Index e = 0; e < size(); ++e) {
-        const Coordinates f = -element(e).load(gather<N>(state.q, coordinates(e)));
-        scatter<N>(f, coordinates(e), r);
+        const Coordinates f = -element(e).load(gather<N>(state.q, coordinate_indices(e)));
+        scatter<N>(f, coordinate_indices(e), r);
       }
     }
   }
@@ -181,25 +181,27 @@ class ElementGroup {
                            Eigen::Ref<VectorXd> rate) const {
     if constexpr (R > 0) {
       for (Index e = 0; e < size(); ++e) {
-        const RowValues rows = evaluate_rows(e, gather<N>(state.q, coordinates(e)), state.t);
+        const RowValues rows = evaluate_rows(e, gather<N>(state.q, coordinate_indices(e)), state.t);
         residual.segment<R>(first_constraint_row(e)) = rows.residual;
-        rate.segment<R>(first_constraint_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
+        rate.segment<R>(first_constraint_row(e)) =
+            rows.gradient * gather<N>(state.v, coordinate_indices(e));
         if constexpr (requires { element(e).time_rate(state.t); })
           rate.segment<R>(first_constraint_row(e)) += element(e).time_rate(state.t);
       }
     }
   }
 
-  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
-               KktMatrix& matrix) const {
+  void add_tangent(const State& state, double tau, const TangentCoefficients& coefficients,
+                   KktMatrix& matrix) const {
     for (Index e = 0; e < size(); ++e) {
-      const Coordinates q = gather<N>(state.q, coordinates(e));
+      const Coordinates q = gather<N>(state.q, coordinate_indices(e));
       const Square S = element_tangent(state, e, q, tau, coefficients);
       if constexpr (R > 0) {
         const Gradient G = evaluate_rows(e, q, state.t).gradient;
-        matrix.add(block(e), S, G, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
+        matrix.add(block_index(e), S, G, G, scaled_compliance(e, coefficients),
+                   row_penalty(e, coefficients));
       } else {
-        matrix.add(block(e), S);
+        matrix.add(block_index(e), S);
       }
     }
   }
@@ -209,7 +211,7 @@ class ElementGroup {
     double sum = 0;
     if constexpr (kIsElastic) {
       for (Index e = 0; e < size(); ++e)
-        sum += element(e).energy(gather<N>(state.q, coordinates(e)));
+        sum += element(e).energy(gather<N>(state.q, coordinate_indices(e)));
     }
     return sum;
   }
@@ -220,15 +222,16 @@ class ElementGroup {
                                 double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
-      const Coordinates q0 = gather<N>(from.q, coordinates(e));
-      const Coordinates q1 = gather<N>(to.q, coordinates(e));
+      const Coordinates q0 = gather<N>(from.q, coordinate_indices(e));
+      const Coordinates q1 = gather<N>(to.q, coordinate_indices(e));
       Coordinates f = Coordinates::Zero(q0.size());
       if constexpr (R > 0)
-        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_constraint_row(e));
+        f.noalias() +=
+            discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_constraint_row(e));
       if constexpr (kIsElastic)
         f += element(e).discrete_gradient_forces(q0, q1, tau / (to.t - from.t));
       if constexpr (kIsLoad) f -= (from.load + to.load) / 2 * element(e).load((q0 + q1) / 2);
-      scatter<N>(f, coordinates(e), r);
+      scatter<N>(f, coordinate_indices(e), r);
     }
   }
 
@@ -239,14 +242,14 @@ class ElementGroup {
                                  double tau, const TangentCoefficients& coefficients,
                                  KktMatrix& matrix) const {
     if constexpr (R == 0) {
-      tangent(midpoint, tau, coefficients, matrix);
+      add_tangent(midpoint, tau, coefficients, matrix);
     } else {
       for (Index e = 0; e < size(); ++e) {
-        const Gradient G = evaluate_rows(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
-        const Coordinates q = gather<N>(midpoint.q, coordinates(e));
-        matrix.add(block(e), element_tangent(midpoint, e, q, tau, coefficients),
+        const Gradient G = evaluate_rows(e, gather<N>(to.q, coordinate_indices(e)), to.t).gradient;
+        const Coordinates q = gather<N>(midpoint.q, coordinate_indices(e));
+        matrix.add(block_index(e), element_tangent(midpoint, e, q, tau, coefficients),
                    discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
-                   penalty(e, coefficients));
+                   row_penalty(e, coefficients));
       }
     }
   }
@@ -263,7 +266,7 @@ class ElementGroup {
     Gradient gradient;
   };
 
-  [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+  [[nodiscard]] Index block_index(Index e) const { return first_block_ + e; }
 
   [[nodiscard]] RowValues evaluate_rows(Index e, const Coordinates& q, double t) const {
     RowValues rows;
@@ -279,14 +282,14 @@ class ElementGroup {
     if constexpr (kIsElastic) S += own.tangent(q, k, tau * coefficients.damping);
     if constexpr (requires(const Rows& lambda) { own.geometric_stiffness(q, lambda); })
       S += k * own.geometric_stiffness(q, state.lambda.segment<R>(first_constraint_row(e)));
-    if constexpr (kIsLoad) S -= k * state.load * own.load_derivative(q);
+    if constexpr (kIsLoad) S -= k * state.load * own.load_stiffness(q);
     if constexpr (kHasMass) S += coefficients.mass * own.mass();
     return S;
   }
 
   [[nodiscard]] Gradient discrete_gradient(Index e, const State& from, const State& to) const {
-    const Coordinates q0 = gather<N>(from.q, coordinates(e));
-    const Coordinates q1 = gather<N>(to.q, coordinates(e));
+    const Coordinates q0 = gather<N>(from.q, coordinate_indices(e));
+    const Coordinates q1 = gather<N>(to.q, coordinate_indices(e));
     if constexpr (requires { element(e).discrete_gradient(q0, q1); }) {
       return element(e).discrete_gradient(q0, q1);
     } else {
@@ -294,13 +297,13 @@ class ElementGroup {
     }
   }
 
-  [[nodiscard]] Rows penalty(Index e, const TangentCoefficients& coefficients) const {
+  [[nodiscard]] Rows row_penalty(Index e, const TangentCoefficients& coefficients) const {
     if (!coefficients.has_penalty) return Rows::Zero();
-    return element(e).penalty(coefficients);
+    return element(e).row_penalty(coefficients);
   }
 
   [[nodiscard]] Rows scaled_compliance(Index e, const TangentCoefficients& coefficients) const {
-    return coefficients.compliance * element(e).compliance();
+    return coefficients.compliance * element(e).row_compliance();
   }
 
   Index first_constraint_row_ = 0, first_block_ = 0;

@@ -18,10 +18,10 @@ void apply_correction(State& state, const VectorXd& step, double factor) {
 Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options)
     : system_(system),
       options_(options),
-      matrix_(system.coordinates(), system.constraints(), system.blocks()),
-      constraint_residual_(VectorXd::Zero(system.constraints())),
-      constraint_rate_(VectorXd::Zero(system.constraints())),
-      step_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      matrix_(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns()),
+      constraint_residual_(VectorXd::Zero(system.constraint_count())),
+      constraint_rate_(VectorXd::Zero(system.constraint_count())),
+      step_(VectorXd::Zero(system.coordinate_count() + system.constraint_count())),
       force_unit_(system.row_units().cwiseInverse()) {}
 
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
@@ -36,11 +36,11 @@ bool Equilibrium::converged(const std::vector<double>& correction, double displa
   return count > 1 && last < 1e-8 * displacement + 1e-11 && last > 0.3 * correction[count - 2];
 }
 
-bool Equilibrium::factor(const State& state) {
+bool Equilibrium::factorize_tangent(const State& state) {
   matrix_.clear();
-  system_.tangent(state, TangentCoefficients{}, matrix_);
+  system_.add_tangent(state, TangentCoefficients{}, matrix_);
   for (const auto& [k, stiffness] : held_) matrix_.add_diagonal(k, stiffness);
-  const bool regular = matrix_.factor(system_.symmetric());
+  const bool regular = matrix_.factor(system_.has_symmetric_tangent());
   factored_ = regular ? state : State();
   return regular;
 }
@@ -52,24 +52,24 @@ bool Equilibrium::factor_if_moved(const State& state, double relative) {
                     (state.lambda - factored_.lambda).cwiseQuotient(force_unit_).norm() <=
                         relative * state.lambda.cwiseQuotient(force_unit_).norm() &&
                     std::abs(state.load - factored_.load) <= relative * std::abs(state.load);
-  return same || factor(state);
+  return same || factorize_tangent(state);
 }
 
 void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual) {
-  const Index n = system_.coordinates();
+  const Index n = system_.coordinate_count();
   system_.force_residual(state, residual.head(n));
   system_.constraint_residual(state, constraint_residual_, constraint_rate_);
-  residual.tail(system_.constraints()) =
-      constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  residual.tail(system_.constraint_count()) =
+      constraint_residual_ - system_.row_compliance().cwiseProduct(state.lambda);
   const double tau = system_.strain_rate_damping();
-  for (Index row = 0; tau != 0 && row < system_.constraints(); ++row)
-    if (system_.compliance()[row] > 0) residual[n + row] += tau * constraint_rate_[row];
+  for (Index row = 0; tau != 0 && row < system_.constraint_count(); ++row)
+    if (system_.row_compliance()[row] > 0) residual[n + row] += tau * constraint_rate_[row];
   if (held_damping_.size() > 0) residual += held_damping_;
 }
 
 void Equilibrium::freeze_damping_forces(const State& moving) {
   State still = moving;
-  still.v.setZero(system_.coordinates());
+  still.v.setZero(system_.coordinate_count());
   VectorXd damped(step_.size()), undamped(step_.size());
   held_damping_.resize(0);
   residual_of(moving, damped);
@@ -77,8 +77,8 @@ void Equilibrium::freeze_damping_forces(const State& moving) {
   held_damping_ = damped - undamped;
 }
 
-void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
-  const Index n = system_.coordinates(), m = system_.constraints();
+void Equilibrium::newton_correction(const State& state, VectorXd& step, NewtonResult& history) {
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
   step.resize(n + m);
   residual_of(state, step);
   history.force_residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
@@ -89,9 +89,9 @@ void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& h
 }
 
 void Equilibrium::load_factor_sensitivity(const State& state, VectorXd& direction) {
-  const Index n = system_.coordinates(), m = system_.constraints();
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
   direction.resize(n + m);
-  system_.load_derivative(state, direction.head(n));
+  system_.load_factor_derivative(state, direction.head(n));
   State at_rest = state;
   at_rest.v.setZero(n);
   system_.constraint_residual(at_rest, constraint_residual_, constraint_rate_);
@@ -101,7 +101,7 @@ void Equilibrium::load_factor_sensitivity(const State& state, VectorXd& directio
 }
 
 double Equilibrium::backward_error(const State& state) {
-  const Index n = system_.coordinates(), m = system_.constraints();
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
   VectorXd x(n + m), residual(n + m), load(n);
   const VectorXd motion = state.q.head(n).cwiseQuotient(system_.scale()).cwiseAbs();
   const double largest_motion = n > 0 ? motion.maxCoeff() : 0;
@@ -110,17 +110,17 @@ double Equilibrium::backward_error(const State& state) {
   x.head(n) = motion.cwiseMax(kLeastFraction * largest_motion).cwiseProduct(system_.scale());
   x.tail(m) = force.cwiseMax(kLeastFraction * largest_force).cwiseProduct(force_unit_);
   matrix_.clear();
-  system_.tangent(state, TangentCoefficients{}, matrix_);
+  system_.add_tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);
   matrix_.term_magnitudes(x, terms);
-  system_.load_derivative(state, load);
+  system_.load_factor_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
   residual_of(state, residual);
   return row_backward_error(residual, terms);
 }
 
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
-  const Index n = system_.coordinates(), m = system_.constraints();
+  const Index n = system_.coordinate_count(), m = system_.constraint_count();
   if (n == 0) return 0;
   // A start vector without symmetry is not orthogonal to any mode.
   VectorXd x(n + m);
@@ -144,16 +144,16 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
 Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
   constexpr double kDriven = 1e-9;  // least work of loads over the product of the norms
   FreeMotion found;
-  const Index n = system_.coordinates();
+  const Index n = system_.coordinate_count();
   if (n == 0) return found;
   (void)smallest_eigenpair(found.shape);
-  VectorXd motion = VectorXd::Zero(n + system_.constraints()), terms(motion.size()), load(n);
+  VectorXd motion = VectorXd::Zero(n + system_.constraint_count()), terms(motion.size()), load(n);
   motion.head(n) = found.shape.cwiseAbs();
   matrix_.term_magnitudes(motion, terms);
   KktMatrix::Extended x = KktMatrix::Extended::Zero(motion.size());
   x.head(n) = found.shape.cast<long double>();
   found.exists = matrix_.energy_over_roundoff(x) <= 1;
-  system_.load_derivative(state, load);
+  system_.load_factor_derivative(state, load);
   const double work = motion.head(n).cwiseQuotient(system_.scale()).norm() *
                       load.cwiseProduct(system_.scale()).norm();
   found.is_driven = std::abs(found.shape.dot(load)) > kDriven * work;
@@ -162,11 +162,11 @@ Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
   return found;
 }
 
-NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& control) {
+NewtonResult Equilibrium::solve(State& state, double load_factor, const LoadControl& control) {
   NewtonResult result;
   const State before = state;
-  const Index n = system_.coordinates();
-  system_.set_load(state, load);
+  const Index n = system_.coordinate_count();
+  system_.set_load_factor(state, load_factor);
   const auto fail = [&](Status status, std::string message) {
     state = before;
     result.outcome = {status, std::move(message)};
@@ -175,12 +175,12 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
   for (int i = 0; i < options_.max_iterations; ++i) {
     if (!factor_if_moved(state, options_.same_state))
       return fail(Status::singular, "the tangent matrix is singular");
-    correction(state, step_, result);
+    newton_correction(state, step_, result);
     if (control) {
       load_factor_sensitivity(state, load_step_);
       const double change = control(step_, load_step_);
       step_ += change * load_step_;
-      system_.set_load(state, state.load + change);
+      system_.set_load_factor(state, state.load + change);
     }
     if (!step_.allFinite()) return fail(Status::singular, "the tangent matrix is singular");
     apply_correction(state, step_);
@@ -190,7 +190,7 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
     if (last > 1e6 * (1 + displacement)) break;
   }
   std::ostringstream message;
-  message << "Newton's method did not converge at load factor " << load << " in "
+  message << "Newton's method did not converge at load factor " << load_factor << " in "
           << result.correction.size() << " iterations; last correction relative to the model size "
           << result.correction.back() << ", residual " << result.force_residual.back() << " N m";
   return fail(Status::not_converged, message.str());
@@ -216,18 +216,18 @@ void count_element_evaluations(const large_motion::GeometricallyExactSystem& sys
     if (turns) turning += member.elements;
   }
   counters.element_evaluations += tangents * all;
-  counters.count(Effect::large_displacement, tangents * all);
-  counters.count(Effect::geometric_stiffening, tangents * all);
-  counters.count(Effect::axial_flexibility, tangents * stretching);
-  counters.count(Effect::shear, tangents * shearing);
-  counters.count(Effect::joint_compliance, tangents * spring_ends);
-  counters.count(Effect::platform_flexibility, tangents * plates);
+  counters.add(Effect::large_displacement, tangents * all);
+  counters.add(Effect::geometric_stiffening, tangents * all);
+  counters.add(Effect::axial_flexibility, tangents * stretching);
+  counters.add(Effect::shear, tangents * shearing);
+  counters.add(Effect::joint_compliance, tangents * spring_ends);
+  counters.add(Effect::platform_flexibility, tangents * plates);
   if (moving) {
-    counters.count(Effect::inertia, tangents);
-    counters.count(Effect::rotary_inertia, tangents * turning);
+    counters.add(Effect::inertia, tangents);
+    counters.add(Effect::rotary_inertia, tangents * turning);
   }
-  if (!model.gravity.isZero(0)) counters.count(Effect::gravity, all);
-  if (moving || !model.gravity.isZero(0)) counters.count(Effect::link_mass, heavy);
+  if (!model.gravity.isZero(0)) counters.add(Effect::gravity, all);
+  if (moving || !model.gravity.isZero(0)) counters.add(Effect::link_mass, heavy);
 }
 
 StaticSolution solve_large_statics(const Model& model,
@@ -257,10 +257,11 @@ StaticSolution estimate_large_statics(const Model& model,
   const large_motion::GeometricallyExactSystem system(model, large_motion);
   large_motion::Equilibrium equilibrium(system, options);
   large_motion::State state = system.reference_state();
-  bool solved = equilibrium.factor(state);
-  const Index unstable = equilibrium.matrix().negative_pivots();
-  solved = solved && equilibrium.solve(state, 1).outcome.solved() && equilibrium.factor(state);
-  if (!solved || equilibrium.matrix().negative_pivots() != unstable)
+  bool solved = equilibrium.factorize_tangent(state);
+  const Index unstable = equilibrium.matrix().unstable_direction_count();
+  solved = solved && equilibrium.solve(state, 1).outcome.solved() &&
+           equilibrium.factorize_tangent(state);
+  if (!solved || equilibrium.matrix().unstable_direction_count() != unstable)
     return solve_large_statics(model, large_motion);
   StaticSolution solution = static_solution(system, state);
   solution.counters.factorizations = equilibrium.matrix().factorizations();

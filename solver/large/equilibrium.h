@@ -47,19 +47,20 @@ class Equilibrium {
   /// equilibria.
   void freeze_damping_forces(const State& moving);
 
-  /// Computes the equilibrium at the load factor `load`, which is also the time of drives, from a
-  /// start state. `control` may change the load factor. The state is unchanged on failure.
-  [[nodiscard]] NewtonResult solve(State& state, double load, const LoadControl& control = {});
+  /// Computes the equilibrium at the load factor `load_factor`, which is also the time of drives,
+  /// from a start state. `control` may change the load factor. The state is unchanged on failure.
+  [[nodiscard]] NewtonResult solve(State& state, double load_factor,
+                                   const LoadControl& control = {});
 
   /// Factors the tangent matrix at a state. @return false if it is singular to working precision.
-  [[nodiscard]] bool factor(const State& state);
+  [[nodiscard]] bool factorize_tangent(const State& state);
   /// Factors the tangent matrix at a state. The last factorization is kept if its state differs by
   /// at most `relative` times the size of the state.
   [[nodiscard]] bool factor_if_moved(const State& state, double relative);
   /// Computes dq/dload and dlambda/dload with the last factored tangent, as (dq, dlambda).
   void load_factor_sensitivity(const State& state, VectorXd& direction);
   /// Computes one Newton correction `step`, which solves: tangent matrix * step = -residual.
-  void correction(const State& state, VectorXd& step, NewtonResult& history);
+  void newton_correction(const State& state, VectorXd& step, NewtonResult& history);
   /// Returns the largest backward error |r| / (|K| |x| + |load|) of all rows in a state. r is the
   /// residual of equilibrium and constraints, x the unknowns, and K a newly assembled tangent.
   [[nodiscard]] double backward_error(const State& state);
@@ -81,7 +82,7 @@ class Equilibrium {
   /// Fixes a coordinate in all following tangent matrices by an additional stiffness. A member or
   /// body that can move freely therefore remains in place if no force acts along its free motion.
   /// The motion counts neither as stable nor as unstable.
-  void hold(Index coordinate, double stiffness) {
+  void restrain_coordinate(Index coordinate, double stiffness) {
     held_.emplace_back(coordinate, stiffness);
     factored_ = State();
   }

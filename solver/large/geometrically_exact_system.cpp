@@ -52,7 +52,8 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
   mass_.setFromTriplets(masses.begin(), masses.end());
   gravity_ = mass_ * gravity_field(model_, layout_);
   const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal(), model_size(model_));
-  parts_.for_each_group([&](auto& group) { group.connect(layout_.free, scales, rows_); });
+  parts_.for_each_group(
+      [&](auto& group) { group.append_system_rows(layout_.free, scales, rows_); });
 }
 
 void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {
@@ -67,7 +68,7 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
   }
   add_torques(-1, state.t, r);
   parts_.for_each_group(
-      [&](const auto& group) { group.forces(state, large_motion_.strain_rate_damping, r); });
+      [&](const auto& group) { group.add_forces(state, large_motion_.strain_rate_damping, r); });
 }
 
 VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
@@ -75,9 +76,9 @@ VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
   return state.v - undamped_velocities_(state.t);
 }
 
-void GeometricallyExactSystem::set_load(State& state, double load) const {
-  state.t = state.load = state.gravity = load;
-  if (accelerations_.size() > 0) state.a = load * accelerations_;
+void GeometricallyExactSystem::set_load_factor(State& state, double load_factor) const {
+  state.t = state.load = state.gravity = load_factor;
+  if (accelerations_.size() > 0) state.a = load_factor * accelerations_;
 }
 
 void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const {
@@ -101,11 +102,12 @@ TangentCoefficients GeometricallyExactSystem::prepare_tangent(
   return coefficients;
 }
 
-void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
-                                       KktMatrix& matrix) const {
+void GeometricallyExactSystem::add_tangent(const State& state,
+                                           const TangentCoefficients& coefficients,
+                                           KktMatrix& matrix) const {
   const TangentCoefficients damped = prepare_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
-    group.tangent(state, large_motion_.strain_rate_damping, damped, matrix);
+    group.add_tangent(state, large_motion_.strain_rate_damping, damped, matrix);
   });
 }
 
@@ -136,7 +138,7 @@ void GeometricallyExactSystem::discrete_gradient_residual(const State& from, con
   });
 }
 
-bool GeometricallyExactSystem::symmetric() const {
+bool GeometricallyExactSystem::has_symmetric_tangent() const {
   return large_motion_.follower_loads.empty();
 }
 
@@ -200,7 +202,8 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   return work - moved.dot(forces - elastic);
 }
 
-void GeometricallyExactSystem::load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
+void GeometricallyExactSystem::load_factor_derivative(const State& state,
+                                                      Eigen::Ref<VectorXd> r) const {
   r = -gravity_.head(r.size()) - parts_.loads.head(r.size());
   if (accelerations_.size() > 0) {
     padded_.head(layout_.free) = accelerations_;

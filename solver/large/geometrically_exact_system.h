@@ -21,18 +21,20 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   /// @throws ModelError  if the model is invalid.
   explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {});
 
-  [[nodiscard]] Index coordinates() const override { return layout_.free; }
-  [[nodiscard]] Index constraints() const override { return parts_.rows; }
-  [[nodiscard]] const VectorXd& compliance() const override { return rows_.compliance; }
+  [[nodiscard]] Index coordinate_count() const override { return layout_.free; }
+  [[nodiscard]] Index constraint_count() const override { return parts_.rows; }
+  [[nodiscard]] const VectorXd& row_compliance() const override { return rows_.compliance; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
   [[nodiscard]] VectorXd row_units() const override { return rows_.unit; }
-  [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return rows_.blocks; }
+  [[nodiscard]] std::vector<std::vector<Index>> coupled_unknowns() const override {
+    return rows_.blocks;
+  }
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const TangentCoefficients& coefficients,
-               KktMatrix& matrix) const override;
-  [[nodiscard]] bool symmetric() const override;
+  void add_tangent(const State& state, const TangentCoefficients& coefficients,
+                   KktMatrix& matrix) const override;
+  [[nodiscard]] bool has_symmetric_tangent() const override;
   [[nodiscard]] double strain_rate_damping() const override {
     return large_motion_.strain_rate_damping;
   }
@@ -69,12 +71,12 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   /// reference velocities.
   [[nodiscard]] VectorXd damped_velocities(const State& state) const;
 
-  /// Scales loads, gravity and inertia forces of statics by `load`, which is also the time of
-  /// drives.
-  void set_load(State& state, double load) const;
+  /// Scales loads, gravity and inertia forces of statics by `load_factor`, which is also the time
+  /// of drives.
+  void set_load_factor(State& state, double load_factor) const;
   /// Computes the derivative of the force residual with respect to the load factor of loads,
   /// gravity and inertia forces.
-  void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
+  void load_factor_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
 
   /// Returns the state at time 0: the pose of the model at rest, without forces.
   [[nodiscard]] State reference_state() const;

@@ -29,7 +29,7 @@ IntegrationSummary run(const ConstrainedSystem& system,
   IntegrationSummary summary;
   MotionResiduals residuals(system);
   const Observer look = [&](const State& at) {
-    add_constraints(residuals.constraints(at), summary);
+    add_constraints(residuals.largest_gaps(at), summary);
     if (observe) observe(at);
   };
   TransientOptions from_state = options;
@@ -40,7 +40,7 @@ IntegrationSummary run(const ConstrainedSystem& system,
   static_cast<TransientSummary&>(summary) =
       solver::integrate(*stepper, from_state, options.breakpoints, StepSizes::free);
   state = stepper->state();
-  stepper->add_energy(summary.evidence);
+  stepper->add_energy_residual(summary.evidence);
   summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence,
                                         {Residual::equation_of_motion, Residual::constraints});
   summary.counters.factorizations = stepper->matrix().factorizations();
@@ -53,7 +53,7 @@ IntegrationSummary run(const ConstrainedSystem& system,
 Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
                                       [static_cast<std::size_t>(initial.direction)];
-  return k < system.coordinates() ? k : -1;
+  return k < system.coordinate_count() ? k : -1;
 }
 
 /// Returns a prescribed initial velocity that the constraints do not admit, or null. The velocity
@@ -81,8 +81,8 @@ std::string describe_start(const GeometricallyExactSystem& system, const Initial
   constexpr std::array kDirections = {" along x", " along y", ""};
   const auto direction = static_cast<std::size_t>(initial.direction);
   std::ostringstream text;
-  text << "node " << system.model().nodes[static_cast<std::size_t>(initial.node)].name
-       << " start with " << initial.value << kVelocityUnits[direction] << kDirections[direction];
+  text << "node " << system.model().nodes[to_size(initial.node)].name << " start with "
+       << initial.value << kVelocityUnits[direction] << kDirections[direction];
   return text.str();
 }
 
@@ -92,10 +92,9 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
   for (const InitialVelocity& initial : initial_velocities) {
     if (coordinate_of(system, initial) >= 0 || initial.value == 0) continue;
-    return {Status::singular,
-            "an initial velocity is given, but a support holds node " +
-                system.model().nodes[static_cast<std::size_t>(initial.node)].name +
-                ", or the node has no rotation"};
+    return {Status::singular, "an initial velocity is given, but a support holds node " +
+                                  system.model().nodes[to_size(initial.node)].name +
+                                  ", or the node has no rotation"};
   }
   const auto start_without = [&](const InitialVelocity* left_out, State& start) {
     start = system.reference_state();
@@ -162,7 +161,7 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
     // Exclude the first state from the member balance. If the step does not resolve all vibrations,
     // its accelerations are those of an implicit step and do not satisfy the equation of motion.
-    if (at.t > start && !conserves) balance.add(system, at);
+    if (at.t > start && !conserves) balance.add_state(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);
     // The multipliers of an energy-momentum step are mean values, which oscillate about the exact
@@ -202,7 +201,7 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
     extrapolated.q += (fine.q - other.q) / 3;
     extrapolated.v += (fine.v - other.v) / 3;
     extrapolated.lambda += (fine.lambda - other.lambda) / 3;
-    add_constraints(residuals.constraints(extrapolated), summary);
+    add_constraints(residuals.largest_gaps(extrapolated), summary);
     if (observe) observe(extrapolated);
   };
   const IntegrationSummary second = integrate(system, state, fixed, combine);

@@ -19,8 +19,8 @@ struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;
   double stiffness_scale = 1, mass_scale = 1;  ///< stiffness, mass of the joined parts [N/m], [kg]
 
-  [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
-  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
+  [[nodiscard]] Rows row_compliance() const { return Rows::Zero(); }
+  [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const {
     return Rows::Constant(coefficients.stiffness * stiffness_scale +
                           coefficients.mass * mass_scale);
   }
@@ -113,8 +113,8 @@ struct LinearRow : Joint<Eigen::Dynamic, 1> {
     residual[0] = factors.dot(q);
     G = factors.transpose();
   }
-  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
-    return Joint::penalty(coefficients) / factors.squaredNorm();
+  [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const {
+    return Joint::row_penalty(coefficients) / factors.squaredNorm();
   }
 };
 
@@ -151,7 +151,7 @@ struct LineSpringElement : Joint<4, 1> {
     D << -mean.transpose(), mean.transpose();
     return D;
   }
-  [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
+  [[nodiscard]] Rows row_compliance() const { return Rows::Constant(flexibility); }
 };
 
 /// Member without bending stiffness: a line spring with the compliance h/EA. The displacement of
@@ -161,10 +161,9 @@ struct Bar : LineSpringElement {
   bool lumped = false;
 
   [[nodiscard]] Square mass() const {
-    const double diagonal = total_mass / (lumped ? 2 : 3),
-                 off_diagonal = lumped ? 0 : total_mass / 6;
+    const double diagonal = total_mass / (lumped ? 2 : 3), coupling = lumped ? 0 : total_mass / 6;
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-    return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
+    return (Square() << diagonal * I, coupling * I, coupling * I, diagonal * I).finished();
   }
   /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const {
@@ -179,19 +178,21 @@ struct Bar : LineSpringElement {
 struct CoordinateSpring : ElementSizes<2, 0> {
   double stiffness = 0;  ///< k [N/m or N m/rad]
 
-  [[nodiscard]] Square matrix() const {
+  [[nodiscard]] Square stiffness_matrix() const {
     return (Square() << stiffness, -stiffness, -stiffness, stiffness).finished();
   }
-  [[nodiscard]] double energy(const Coordinates& q) const { return q.dot(matrix() * q) / 2; }
-  [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const {
-    return matrix() * (q + tau * v);
+  [[nodiscard]] double energy(const Coordinates& q) const {
+    return q.dot(stiffness_matrix() * q) / 2;
   }
-  [[nodiscard]] Square tangent(const Coordinates&, double k, double d) const {
-    return (k + d) * matrix();
+  [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const {
+    return stiffness_matrix() * (q + tau * v);
+  }
+  [[nodiscard]] Square tangent(const Coordinates&, double stiffness_factor, double damping) const {
+    return (stiffness_factor + damping) * stiffness_matrix();
   }
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
-                                                     double rate) const {
-    return forces((q0 + q1) / 2, q1 - q0, rate);
+                                                     double damping_over_step) const {
+    return forces((q0 + q1) / 2, q1 - q0, damping_over_step);
   }
 };
 
@@ -213,7 +214,7 @@ struct FollowerForce : ElementSizes<3, 0> {
     return f;
   }
   /// Returns the derivative dload/dq of the load, which is not symmetric.
-  [[nodiscard]] Square load_derivative(const Coordinates& q) const {
+  [[nodiscard]] Square load_stiffness(const Coordinates& q) const {
     Square derivative = Square::Zero();
     derivative.block<2, 1>(0, 2) = perpendicular(rotated(force.head<2>(), q[2]));
     return derivative;

@@ -30,14 +30,14 @@ KktMatrix::KktMatrix(Index coordinates, Index constraints, const Blocks& blocks)
   }
   matrix_.resize(coordinates + constraints, coordinates + constraints);
   matrix_.setFromTriplets(entries.begin(), entries.end());
-  order(blocks);
-  locate(blocks);
+  set_elimination_order(blocks);
+  locate_entries(blocks);
   multiplier_scaling_ = VectorXd::Zero(constraints);
   work_.resize(coordinates + constraints);
   solution_.resize(coordinates + constraints);
 }
 
-void KktMatrix::order(const Blocks& blocks) {
+void KktMatrix::set_elimination_order(const Blocks& blocks) {
   using Indices = Eigen::Matrix<Index, Eigen::Dynamic, 1>;
   const Index n = coordinates_, size = coordinates_ + constraints_;
   Eigen::PermutationMatrix<Eigen::Dynamic> elimination;
@@ -70,7 +70,7 @@ void KktMatrix::order(const Blocks& blocks) {
   matrix_.swap(ordered);
 }
 
-void KktMatrix::locate(const Blocks& blocks) {
+void KktMatrix::locate_entries(const Blocks& blocks) {
   const auto& position = permutation_.indices();
   const auto value_index = [&](Index i, Index j) {
     return static_cast<int>(&matrix_.coeffRef(position[i], position[j]) - matrix_.valuePtr());
@@ -151,7 +151,7 @@ void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
   magnitudes.noalias() = permutation_.transpose() * solution_;
 }
 
-Index KktMatrix::negative_pivots() const {
+Index KktMatrix::unstable_direction_count() const {
   return factors_->use_lu ? -1 : factors_->ldlt.negative_pivots() - constraints_;
 }
 

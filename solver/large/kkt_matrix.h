@@ -65,18 +65,17 @@ class KktMatrix {
     constexpr int N = Matrix::RowsAtCompileTime, M = Gradient::RowsAtCompileTime;
     constexpr int kSize = N == Eigen::Dynamic ? N : N + M;
     const Index n = S.rows(), m = G.rows();
-    const Rows penalty =
-        rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
+    const Rows penalty = rho.cwiseMin(c.unaryExpr([](auto x) { return x > 0 ? 0.5 / x : 1e300; }));
     const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
     const Rows least = penalty.unaryExpr([](double x) { return x > 0 ? 1e-11 / x : 0; });
     const Rows compliance = c.cwiseProduct(E).cwiseMax(least);
-    Eigen::Matrix<double, kSize, kSize> all(n + m, n + m);
+    Eigen::Matrix<double, kSize, kSize> terms(n + m, n + m);
     const Eigen::Matrix<double, N, M> penalized = D.transpose() * penalty.asDiagonal();
-    all.template topLeftCorner<N, N>(n, n) = S + penalized.lazyProduct(G);
-    all.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
-    all.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
-    all.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
-    add(block, all);
+    terms.template topLeftCorner<N, N>(n, n) = S + penalized.lazyProduct(G);
+    terms.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
+    terms.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
+    terms.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
+    add(block, terms);
     multiplier_scaling_.segment(first_row_[static_cast<std::size_t>(block)], m) =
         penalty.cwiseQuotient(E);
   }
@@ -115,7 +114,7 @@ class KktMatrix {
 
   /// Returns the number of unstable directions: the number of negative pivots minus the number of
   /// constraints. It is -1 if the matrix was not factored by LDL^T.
-  [[nodiscard]] Index negative_pivots() const;
+  [[nodiscard]] Index unstable_direction_count() const;
 
   [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
   [[nodiscard]] std::int64_t solves() const { return solves_; }
@@ -123,8 +122,8 @@ class KktMatrix {
  private:
   struct Factors;
 
-  void order(const Blocks& blocks);
-  void locate(const Blocks& blocks);
+  void set_elimination_order(const Blocks& blocks);
+  void locate_entries(const Blocks& blocks);
 
   Index coordinates_ = 0, constraints_ = 0;
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< order of elimination

@@ -281,11 +281,10 @@ class LargeElastodynamics {
     if (integration.sample_times.empty())
       integration.sample_times = even_times(integration.start, integration.end, integration.step);
     const ConstrainedSystem& equations = system;
-    const IntegrationSummary summary =
-        integrate(equations, state, integration, [&](const State& now) {
-          if (now.t > options_.time.start) balance_.add(system, now);
-          add_sample(system, now, start_, at_time(now.t));
-        });
+    const auto summary = integrate(equations, state, integration, [&](const State& now) {
+      if (now.t > options_.time.start) balance_.add_state(system, now);
+      add_sample(system, now, start_, at_time(now.t));
+    });
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);
     TransientSummary& result = solution_.summary;
@@ -295,7 +294,7 @@ class LargeElastodynamics {
     result.counters += before;
     count_element_evaluations(system, summary.iterations, true, result.counters);
     if (options_.damping.mass != 0 || options_.damping.stiffness != 0)
-      result.counters.count(Effect::damping, summary.iterations);
+      result.counters.add(Effect::damping, summary.iterations);
   }
 
   /// Adds the results of a state to the samples.
@@ -428,9 +427,9 @@ RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate) {
 }
 
 TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, double start,
-                                Index part, Index from) {
-  const auto seen = [part, from](const Vector9d& values) {
-    return values[part] - (from < 0 ? 0.0 : values[from]);
+                                Index part, Index reference_part) {
+  const auto seen = [part, reference_part](const Vector9d& values) {
+    return values[part] - (reference_part < 0 ? 0.0 : values[reference_part]);
   };
   const auto last = std::make_shared<Turn>(Turn{start, 0, seen(motion(start).q_dot)});
   const auto law = [motion, seen, before = seen(motion(start).q), last](double t) {
@@ -468,13 +467,14 @@ VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
     node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.part[end.member]);
   VectorXd member(std::ssize(model.members));
   for (Index m = 0; m < member.size(); ++m) member[m] = turn(motion.part[to_size(m)]);
-  VectorXd rates = VectorXd::Zero(system.coordinates());
+  VectorXd rates = VectorXd::Zero(system.coordinate_count());
   for (const auto& [k, value] : rigid_member_velocities(system, node, member)) rates[k] = value;
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& mass = model.masses[i];
     if (mass.offset.isZero(0)) continue;
-    const Vector2d center = node.row(mass.node).head<2>().transpose() +
-                            motion.part_motion_at_node(mass.node).derivative(mass.offset, order);
+    const Vector2d center =
+        node.row(mass.node).head<2>().transpose() +
+        motion.part_motion_at_node(mass.node).rotated_derivative(mass.offset, order);
     for (std::size_t k = 0; k < 2; ++k)
       rates[system.layout().mass_center[i][k]] = center[static_cast<Index>(k)];
   }

@@ -60,7 +60,7 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// the end. Central differences in time at the first and last times of the path require values
 /// beyond its ends.
 [[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
-                                              double start, Index part, Index from = -1);
+                                              double start, Index part, Index reference_part = -1);
 
 /// Additional node at a joint for the end of a distal link. Its rotation is driven relative to the
 /// node of the joint.

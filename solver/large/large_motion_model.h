@@ -116,8 +116,8 @@ struct MemberElement {
   [[nodiscard]] bool is_bar() const { return coordinates.size() == 4; }
   [[nodiscard]] double length() const { return (end - start).norm(); }
   /// Returns the number of coordinates per node.
-  [[nodiscard]] std::size_t stride() const { return is_bar() ? 2 : 3; }
-  [[nodiscard]] std::size_t nodes() const { return coordinates.size() / stride(); }
+  [[nodiscard]] std::size_t coordinates_per_node() const { return is_bar() ? 2 : 3; }
+  [[nodiscard]] std::size_t nodes() const { return coordinates.size() / coordinates_per_node(); }
   /// Returns the position of a node in the pose of the model [m].
   [[nodiscard]] Vector2d position(std::size_t node) const;
 };

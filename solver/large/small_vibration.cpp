@@ -38,16 +38,16 @@ class ShiftedStiffness {
  public:
   ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
       : system_(system),
-        plain_(system.coordinates(), system.constraints(), system.blocks()),
-        factored_(system.coordinates(), system.constraints(), system.blocks()) {
+        plain_(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns()),
+        factored_(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns()) {
     TangentCoefficients coefficients;
     coefficients.mass = -w2;
     factored_.clear();
-    system.tangent(state, coefficients, factored_);
-    exists_ = factored_.factor(system.symmetric());
+    system.add_tangent(state, coefficients, factored_);
+    exists_ = factored_.factor(system.has_symmetric_tangent());
     coefficients.has_penalty = false;
     plain_.clear();
-    system.tangent(state, coefficients, plain_);
+    system.add_tangent(state, coefficients, plain_);
   }
 
   /// Returns false if the matrix is singular.
@@ -57,8 +57,8 @@ class ShiftedStiffness {
   [[nodiscard]] Extended solve(const Extended& force) const {
     constexpr double kEnough = 1e-13;
     constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not decrease evenly
-    const Index n = system_.coordinates();
-    Extended x = Extended::Zero(n + system_.constraints());
+    const Index n = system_.coordinate_count();
+    Extended x = Extended::Zero(n + system_.constraint_count());
     last_correction_ = 1;
     for (int pass = 0; pass < kPasses; ++pass) {
       Extended residual = -plain_.multiply(x);
@@ -131,8 +131,7 @@ class ShiftedStiffness {
 MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const SymmetricEigenpairs pairs =
-      symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
+  const auto pairs = symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
   const double rounding = static_cast<double>(M.rows()) * kEps;  // relative to a unit diagonal
   const Index rank = (pairs.value.array() > rounding).count();
   return size.asDiagonal() * pairs.vector.rightCols(rank) *
@@ -201,7 +200,7 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
     const ShiftedStiffness K(system, state, -shift);
     if (!K.is_nonsingular()) return 0;
     double lowest = 0;
-    for (const std::complex<double> w2 : spectrum(K, L, -shift, system.symmetric()).w2) {
+    for (const auto w2 : spectrum(K, L, -shift, system.has_symmetric_tangent()).w2) {
       const double size = std::abs(w2);
       if (size > kSoftShare * shift && (lowest == 0 || size < lowest)) lowest = size;
     }
@@ -217,7 +216,7 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
 /// With the shift, the requested mode dominates.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
-  const Index n = system.coordinates();
+  const Index n = system.coordinate_count();
   // Increase the distance between shift and w^2 if round-off errors of the factors exceed it.
   for (const double aside : {kAside, 0.03, 0.3}) {
     const double t = w2.real() - aside * std::abs(w2);
@@ -241,7 +240,7 @@ Extended beside(const GeometricallyExactSystem& system, const State& state, cons
 
 SmallVibration small_vibration(const GeometricallyExactSystem& system, const State& state,
                                Index count) {
-  const Index n = system.coordinates();
+  const Index n = system.coordinate_count();
   if (n > kMaxVibrationCoordinates)
     throw ModelError("small vibration about a large displacement supports at most " +
                      std::to_string(kMaxVibrationCoordinates) + " coordinates; the model has " +
@@ -257,7 +256,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.outcome = {Status::singular, "nothing vibrates: no part that can move has a mass"};
     return found;
   }
-  Spectrum modes = spectrum(K, L, 0, system.symmetric());
+  Spectrum modes = spectrum(K, L, 0, system.has_symmetric_tangent());
   std::optional<ShiftedStiffness> stiffened;
   double above = 0;
   if (!modes.x.empty()) {
@@ -268,7 +267,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   if (above > 0) {
     stiffened.emplace(system, state, -above);
     const Spectrum clear = stiffened->is_nonsingular()
-                               ? spectrum(*stiffened, L, -above, system.symmetric())
+                               ? spectrum(*stiffened, L, -above, system.has_symmetric_tangent())
                                : Spectrum();
     // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
     // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,

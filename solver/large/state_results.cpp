@@ -29,9 +29,9 @@ struct PlacedElement {
   const ElementGroup<Element>& group = system.parts().group<Element>();
   Index place = system.parts().group_index[to_size(index)];
   const Element& element = group.element(place);
-  const CoordinateIndices<N>& where = group.coordinates(place);
+  const CoordinateIndices<N>& where = group.coordinate_indices(place);
   Coordinates q = gather<N>(state.q, where);
-  int stride = static_cast<int>(placed.stride());
+  int stride = static_cast<int>(placed.coordinates_per_node());
 
   /// Returns the nodal forces of loads, weight, inertia and mass-proportional damping alpha: loads
   /// + M (g - a - alpha v) [N, N, N m].
@@ -179,7 +179,7 @@ StaticSolution static_solution(const GeometricallyExactSystem& system, const Sta
   return solution;
 }
 
-void MemberBalance::add(const GeometricallyExactSystem& system, const State& state) {
+void MemberBalance::add_state(const GeometricallyExactSystem& system, const State& state) {
   const Layout& layout = system.layout();
   for (std::size_t m = 0; m < system.model().members.size(); ++m) {
     const Index first = layout.first_element[m], last = layout.first_element[m + 1] - 1;
@@ -213,7 +213,7 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
        e < layout.first_element[to_size(member + 1)]; ++e) {
     const MemberElement& element = layout.elements[to_size(e)];
     for (std::size_t a = points.empty() ? 0 : 1; a < element.nodes(); ++a) {
-      const std::size_t k = element.stride() * a;
+      const std::size_t k = element.coordinates_per_node() * a;
       points.push_back(element.position(a) + Vector2d(value_or(q, element.coordinates[k], 0),
                                                       value_or(q, element.coordinates[k + 1], 0)));
     }
@@ -224,19 +224,19 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
 }
 
 Index redundant_constraint_count(const GeometricallyExactSystem& system, const State& state) {
-  const Index rigid = (system.compliance().array() == 0).count();
-  if (rigid == 0 || rigid > kMaxCountedConstraints || system.coordinates() == 0) return 0;
-  KktMatrix matrix(system.coordinates(), system.constraints(), system.blocks());
+  const Index rigid = (system.row_compliance().array() == 0).count();
+  if (rigid == 0 || rigid > kMaxCountedConstraints || system.coordinate_count() == 0) return 0;
+  KktMatrix matrix(system.coordinate_count(), system.constraint_count(), system.coupled_unknowns());
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;
   matrix.clear();
-  system.tangent(state, coefficients, matrix);
+  system.add_tangent(state, coefficients, matrix);
   Eigen::SparseMatrix<double> columns =
       matrix.constraint_gradient(system.scale(), system.row_units()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
     const double size = columns.col(r).norm();  // 0 if supports hold both ends
-    if (system.compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
+    if (system.row_compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
   }
   columns = columns * factor.asDiagonal();
   columns.prune(0.0);

@@ -31,7 +31,7 @@ class MemberBalance {
  public:
   /// Adds the residuals of the equilibrium of all members in a state that satisfies the equation of
   /// motion.
-  void add(const GeometricallyExactSystem& system, const State& state);
+  void add_state(const GeometricallyExactSystem& system, const State& state);
   /// Returns the largest resultant force, or moment about the first end, of all members and states.
   /// It is relative to the largest sum of the magnitudes of these forces or moments. Members whose
   /// forces are only round-off errors therefore do not contribute.

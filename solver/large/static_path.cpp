@@ -81,8 +81,7 @@ double step_factor(const std::vector<double>& correction) {
 std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
                                         const VectorXd& shape) {
   const Layout& layout = system.layout();
-  static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
-                                                       "rotation"};
+  static constexpr std::array names = {"motion along x", "motion along y", "rotation"};
   double largest = -1;
   std::string description = "a motion inside a member";
   const auto consider = [&](Index k, const std::string& what) {
@@ -117,7 +116,7 @@ class PathFollower {
       : system_(system), options_(options), equilibrium_(system, options.newton) {}
 
   StaticPath run() {
-    if (start() && system_.coordinates() > 0) {
+    if (start() && system_.coordinate_count() > 0) {
       while (next()) {
       }
     }
@@ -136,31 +135,31 @@ class PathFollower {
     point.newton = equilibrium_.solve(point.state, 0);
     if (!point.newton.outcome.solved()) return stop(point.newton.outcome);
     const bool at_rest = point.newton.correction.size() == 1;  // tangent was factored at this state
-    if (!at_rest && !equilibrium_.factor(point.state))
+    if (!at_rest && !equilibrium_.factorize_tangent(point.state))
       return stop({Status::singular, "the tangent matrix is singular"});
-    for (Index found = 0; found <= system_.coordinates(); ++found) {
+    for (Index found = 0; found <= system_.coordinate_count(); ++found) {
       const Equilibrium::FreeMotion free = equilibrium_.free_motion(point.state);
       if (!free.exists) break;
-      if (free.is_driven || !options_.keep_free_parts || found == system_.coordinates())
+      if (free.is_driven || !options_.keep_free_parts || found == system_.coordinate_count())
         return stop(
             {Status::singular, "free motion: " + describe_largest_coordinate(system_, free.shape)});
-      equilibrium_.hold(free.coordinate, free.stiffness);
-      if (!equilibrium_.factor(point.state))
+      equilibrium_.restrain_coordinate(free.coordinate, free.stiffness);
+      if (!equilibrium_.factorize_tangent(point.state))
         return stop({Status::singular, "the tangent matrix is singular"});
     }
     VectorXd direction;
     equilibrium_.load_factor_sensitivity(point.state, direction);
-    const double response = weighted_rms_norm(system_, direction.head(system_.coordinates()));
+    const double response = weighted_rms_norm(system_, direction.head(system_.coordinate_count()));
     if (!std::isfinite(response)) return stop({Status::singular, "the tangent matrix is singular"});
     const double typical = response < 1e-6 ? mean_response(point.state) : response;
     displacement_weight_ = 1 / std::pow(std::max(typical, 1e-6), 2);
     metric_ = VectorXd::Zero(direction.size() + 1);
-    metric_.head(system_.coordinates()) = displacement_weight_ /
-                                          static_cast<double>(system_.coordinates()) *
-                                          system_.scale().cwiseAbs2().cwiseInverse();
+    metric_.head(system_.coordinate_count()) = displacement_weight_ /
+                                               static_cast<double>(system_.coordinate_count()) *
+                                               system_.scale().cwiseAbs2().cwiseInverse();
     metric_.tail<1>().setOnes();
     direction_ = normalized(with_load(direction, 1));
-    point.unstable_directions = equilibrium_.matrix().negative_pivots();
+    point.unstable_directions = equilibrium_.matrix().unstable_direction_count();
     const bool small = response * std::abs(options_.target) < options_.small_response;
     arc_step_ = (small ? std::abs(options_.target) : options_.first_step) / load_of(direction_);
     add_evidence(point.state);
@@ -173,10 +172,10 @@ class PathFollower {
   /// is zero.
   double mean_response(const State& start) {
     State end = start;
-    system_.set_load(end, options_.target);
+    system_.set_load_factor(end, options_.target);
     NewtonResult newton;
     VectorXd step;
-    equilibrium_.correction(end, step, newton);
+    equilibrium_.newton_correction(end, step, newton);
     const double response = newton.correction.back() / std::abs(options_.target);
     return std::isfinite(response) ? response : 0;
   }
@@ -239,7 +238,7 @@ class PathFollower {
                                                   equilibrium_.factor_if_moved(point.state, kSame);
       if (reached) ahead = tangent(point.state, direction_);
       if (reached && dot(direction_, ahead) > kTurn) {
-        point.unstable_directions = equilibrium_.matrix().negative_pivots();
+        point.unstable_directions = equilibrium_.matrix().unstable_direction_count();
         critical = find_critical_point(point, ahead);
         if (!critical || lies_on_path(*critical, point.state.load)) break;
       }
@@ -288,7 +287,7 @@ class PathFollower {
 
   void add_evidence(const State& state) {
     path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(state));
-    balance_.add(system_, state);
+    balance_.add_state(system_, state);
   }
 
   void append(PathPoint point) {
@@ -327,7 +326,7 @@ class PathFollower {
   bool record_event(const CriticalPoint& critical, const PathPoint& point, bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);
-    if (!equilibrium_.factor(critical.point.state)) return false;
+    if (!equilibrium_.factorize_tangent(critical.point.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
     // One critical point is recorded for each direction that becomes unstable or stable. A limit
     // point is one of these critical points.
@@ -342,7 +341,7 @@ class PathFollower {
     for (Index i = 0; i < bifurcations; ++i) path_.events.push_back(event);
     const bool switches = !critical.load_reversed && options_.switch_branch && !switched_;
     if (switches) switch_to_branch(critical.point, event.shape);
-    if (!switches && done && !equilibrium_.factor(point.state)) return false;
+    if (!switches && done && !equilibrium_.factorize_tangent(point.state)) return false;
     return switches;
   }
 
@@ -367,23 +366,24 @@ class PathFollower {
       if (load_reversed) return load_of(tangent(state, d));
       VectorXd shape;
       const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
-      return equilibrium_.matrix().negative_pivots() == unstable ? eigenvalue : -eigenvalue;
+      return equilibrium_.matrix().unstable_direction_count() == unstable ? eigenvalue
+                                                                          : -eigenvalue;
     };
     const VectorXd chord = chord_between(from, to.state);
     const double interval = dot(d, chord);
-    if (!equilibrium_.factor(from)) return {};
+    if (!equilibrium_.factorize_tangent(from)) return {};
     const auto trial_at = [&](double arc, const State& state) {
       const double f = indicator(state);
-      return Trial{arc, f, equilibrium_.matrix().negative_pivots(), state};
+      return Trial{arc, f, equilibrium_.matrix().unstable_direction_count(), state};
     };
     Trial first = trial_at(0, from);
-    if (!equilibrium_.factor(to.state)) return {};
+    if (!equilibrium_.factorize_tangent(to.state)) return {};
     IllinoisBracket bracket(std::move(first), trial_at(interval, to.state));
     const double nearest =
         nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
     double f = 0;  // indicator of the last trial
     const auto solve_at = [&](double arc, PathPoint& trial) {
-      if (!corrector(d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
+      if (!corrector(d, arc, trial) || !equilibrium_.factorize_tangent(trial.state)) return false;
       Trial found = trial_at(arc, trial.state);
       f = found.f;
       bracket.update(std::move(found));
@@ -426,7 +426,7 @@ class PathFollower {
 
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {
     switched_ = true;
-    const Index n = system_.coordinates();
+    const Index n = system_.coordinate_count();
     direction_.setZero();
     direction_.head(n) = shape;
     direction_ = normalized(direction_);

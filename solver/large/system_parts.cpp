@@ -64,7 +64,7 @@ class SystemBuilder {
     renumber_free_first();
     parts_.for_each_group([&](auto& group) {
       group.set_first_constraint_row(parts_.rows);
-      parts_.rows += group.rows();
+      parts_.rows += group.constraint_row_count();
     });
     return std::move(parts_);
   }

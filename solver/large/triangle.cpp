@@ -75,18 +75,18 @@ typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::forces(const Coordina
 
 template <int Nodes>
 typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates& q,
-                                                              double stiffness,
+                                                              double stiffness_factor,
                                                               double damping) const {
   Square K = Square::Zero();
   for (const Point& point : points_) {
     const Eigen::Matrix2d H = point.displacement_gradient(q);
     const Operator B = point.strain_displacement_matrix(H);
     const Strain s = D_ * strain(H);
-    K += (stiffness + damping) * point.volume * B.transpose() * D_ * B;
+    K += (stiffness_factor + damping) * point.volume * B.transpose() * D_ * B;
     Eigen::Matrix2d S;
     S << s[0], s[2], s[2], s[1];
     const Eigen::Matrix<double, Nodes, Nodes> geometric =
-        stiffness * point.volume * point.gradients.transpose() * S * point.gradients;
+        stiffness_factor * point.volume * point.gradients.transpose() * S * point.gradients;
     for (const int k : {0, 1}) {
       const auto along = Eigen::seqN(k, Eigen::fix<Nodes>, Eigen::fix<2>);
       K(along, along) += geometric;
@@ -97,14 +97,14 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
 
 template <int Nodes>
 typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_forces(
-    const Coordinates& q0, const Coordinates& q1, double rate) const {
+    const Coordinates& q0, const Coordinates& q1, double damping_over_step) const {
   Coordinates f = Coordinates::Zero();
   for (const Point& point : points_) {
     const Eigen::Matrix2d H0 = point.displacement_gradient(q0);
     const Eigen::Matrix2d H1 = point.displacement_gradient(q1);
     const Strain e0 = strain(H0), e1 = strain(H1);
     const Operator B = point.strain_displacement_matrix((H0 + H1) / 2);
-    f += point.volume * B.transpose() * (D_ * ((e0 + e1) / 2 + rate * (e1 - e0)));
+    f += point.volume * B.transpose() * (D_ * ((e0 + e1) / 2 + damping_over_step * (e1 - e0)));
   }
   return f;
 }

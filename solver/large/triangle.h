@@ -31,13 +31,13 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   [[nodiscard]] double energy(const Coordinates& q) const;
   /// Returns the nodal forces dEnergy/dq with strain-rate damping, S = D (E + tau dE/dt).
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
-  /// Returns `stiffness` K + `damping` K_m. K is the derivative of `forces` with v = 0, and K_m is
-  /// K without the geometric stiffness. `damping` includes the factor tau.
-  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
+  /// Returns `stiffness_factor` K + `damping` K_m. K is the derivative of `forces` with v = 0, and
+  /// K_m is K without the geometric stiffness. `damping` includes the factor tau.
+  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness_factor, double damping) const;
   /// Returns forces f with f . (q1 - q0) = energy(q1) - energy(q0) if tau = 0 (J. C. Simo, N.
-  /// Tarnow, ZAMP 43, 1992). `rate` is tau over the step.
+  /// Tarnow, ZAMP 43, 1992). `damping_over_step` is tau over the step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
-                                                     double rate) const;
+                                                     double damping_over_step) const;
   [[nodiscard]] const Square& mass() const { return mass_; }
 
  private:

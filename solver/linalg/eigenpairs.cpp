@@ -89,7 +89,7 @@ class Solver {
  private:
   void factor(double t) {
     if (!pencil_.B) return;
-    factorization_.compute(shifted(*pencil_.K, *pencil_.B, t));
+    factorization_.compute(shifted_matrix(*pencil_.K, *pencil_.B, t));
     ++counters_.factorizations;
   }
 
@@ -130,8 +130,7 @@ class Solver {
   /// Returns all eigenvectors with mu = 1 / (lambda - s) > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
-    const SymmetricEigenpairs pairs =
-        scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
+    const auto pairs = scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
     failed_ = !pairs.converged;
     if (failed_) return MatrixXd(size_, 0);
     const double zero = static_cast<double>(size_) * kEps * pairs.value.cwiseAbs().maxCoeff();
@@ -157,7 +156,7 @@ class Solver {
       return x;
     };
     const auto apply = [&](const Eigen::Ref<const VectorXd>& x) -> VectorXd {
-      const VectorXd p = factorization_.solve_half_transposed(complement(x));
+      const VectorXd p = factorization_.apply_inverse_factor_transposed(complement(x));
       ++counters_.solves;
       return complement(factorization_.apply_inverse_factor(times_B(p)));
     };
@@ -167,7 +166,7 @@ class Solver {
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
     MatrixXd found(size_, (mu.array() > zero).count());
     for (Index j = 0; j < found.cols(); ++j)
-      found.col(j) = factorization_.solve_half_transposed(complement(Y.col(j)));
+      found.col(j) = factorization_.apply_inverse_factor_transposed(complement(Y.col(j)));
     return found;
   }
 
@@ -440,9 +439,9 @@ double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
 
 }  // namespace
 
-Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, Index count,
+Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null_vectors, Index count,
                              EigenMethod method, Factorization& factorization, Counters& counters) {
-  return Solver(pencil, null, count, method, factorization, counters).run();
+  return Solver(pencil, null_vectors, count, method, factorization, counters).run();
 }
 
 bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
@@ -452,7 +451,7 @@ bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
          std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
 }
 
-SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
+SparseMatrix shifted_matrix(const SparseMatrix& K, const SparseMatrix& B, double t) {
   if (!same_pattern(K, B)) return K - t * B;
   SparseMatrix A = K;
   A.coeffs() -= t * B.coeffs();
@@ -479,13 +478,13 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
                               Factorization&& spent, double shift_above) {
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
-  const auto count_below = [&](double t) { return factorization.inertia(shifted(A, B, t)); };
+  const auto below = [&](double t) { return factorization.sturm_count(shifted_matrix(A, B, t)); };
   if (found.size() == 0) {  // the count must be zero for any large shift
-    const std::optional<Index> counted = count_below(shift_above_all(A, B));
+    const std::optional<Index> counted = below(shift_above_all(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
-  if (shift_above > found[found.size() - 1] && count_below(shift_above) == found.size()) return 0;
-  return eigenvalue_count_error(found, count_below);
+  if (shift_above > found[found.size() - 1] && below(shift_above) == found.size()) return 0;
+  return eigenvalue_count_error(found, below);
 }
 
 Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
@@ -493,8 +492,7 @@ Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   constexpr double kDependent = 1e-3;  // eigenvalue of products; 0 for a duplicate
   const MatrixXd products = X.transpose() * (metric * X);
   const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
-  const SymmetricEigenpairs pairs =
-      symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
+  const auto pairs = symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
   return X.cols() - (pairs.value.array() > kDependent).count();  // all if not finite
 }
 

@@ -54,24 +54,25 @@ struct Eigenpairs {
 ///   known eigenvectors until the count agrees.
 ///
 /// @param pencil  matrices K and B and shift s.
-/// @param null  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
+/// @param null_vectors  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
 ///   eigenvalues, 0, and are not returned.
 /// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
 ///   returned.
 /// @param method  dense, sparse or automatic.
-/// @param factorization  factors of `shifted(K, B, s)`; overwritten.
+/// @param factorization  factors of `shifted_matrix(K, B, s)`; overwritten.
 /// @param counters  incremented by the factorizations and solves.
 /// @returns the pairs; `outcome` is not_converged if the matrix is too ill-conditioned or pairs are
 ///   missing.
-[[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
-                                           Index count, EigenMethod method,
-                                           Factorization& factorization, Counters& counters);
+[[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil,
+                                           const Eigen::MatrixXd& null_vectors, Index count,
+                                           EigenMethod method, Factorization& factorization,
+                                           Counters& counters);
 
 /// Returns true if both matrices are compressed and have entries at the same positions.
 [[nodiscard]] bool same_pattern(const SparseMatrix& A, const SparseMatrix& B);
 
 /// Returns K - t B. Its pattern combines those of K and B for any t.
-[[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
+[[nodiscard]] SparseMatrix shifted_matrix(const SparseMatrix& K, const SparseMatrix& B, double t);
 
 /// Returns the number of eigenvalues that are missing or superfluous among those found. It compares
 /// the counts of found and existing eigenvalues below the last clear gap between eigenvalues. The

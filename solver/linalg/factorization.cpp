@@ -182,7 +182,7 @@ VectorXd SparseLdlt::apply_inverse_factor(const VectorXd& b) const {
   return y;
 }
 
-VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
+VectorXd SparseLdlt::apply_inverse_factor_transposed(const VectorXd& y) const {
   VectorXd x = y.cwiseQuotient(factors_->root);
   solve_transposed(factors_->ldlt.matrixL().nestedExpression(), x);
   return factors_->P.transpose() * x;
@@ -199,7 +199,7 @@ void Factorization::compute(const SparseMatrix& A) {
   exists_ = ldlt_.factorize(scaled);
 }
 
-std::optional<Index> Factorization::inertia(const SparseMatrix& A) {
+std::optional<Index> Factorization::sturm_count(const SparseMatrix& A) {
   compute(A);
   return is_reliable() ? std::optional(negative_pivots()) : std::nullopt;
 }
@@ -219,8 +219,8 @@ VectorXd Factorization::apply_inverse_factor(const VectorXd& b) const {
   return ldlt_.apply_inverse_factor(scaling_.cwiseProduct(b));
 }
 
-VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {
-  return scaling_.cwiseProduct(ldlt_.solve_half_transposed(y));
+VectorXd Factorization::apply_inverse_factor_transposed(const VectorXd& y) const {
+  return scaling_.cwiseProduct(ldlt_.apply_inverse_factor_transposed(y));
 }
 
 template <class Scalar>

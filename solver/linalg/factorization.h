@@ -49,7 +49,7 @@ class SparseLdlt {
   /// Solves A x = b in two halves for a positive definite A. The first function returns y =
   /// D^(-1/2) L^-1 P b, and the second returns x = P^T L^-T D^(-1/2) y.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor_transposed(const Eigen::VectorXd& y) const;
 
  private:
   struct Factors;
@@ -76,7 +76,7 @@ class Factorization {
   [[nodiscard]] Index negative_pivots() const { return ldlt_.negative_pivots(); }
   /// Factors A and returns the number of its negative eigenvalues, or an empty value if the count
   /// is unreliable.
-  std::optional<Index> inertia(const SparseMatrix& A);
+  std::optional<Index> sturm_count(const SparseMatrix& A);
   /// Returns true if the signs of the pivots are reliable. An indefinite matrix without row
   /// exchanges has lost its digits if |L| exceeds about 1e8.
   [[nodiscard]] bool is_reliable() const { return exists_ && ldlt_.element_growth() < 1e8; }
@@ -85,7 +85,7 @@ class Factorization {
   /// Solves A x = b in two halves for a positive definite A = F F^T. The first function returns y =
   /// F^-1 b, and the second returns x = F^-T y.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor_transposed(const Eigen::VectorXd& y) const;
 
   [[nodiscard]] const Eigen::VectorXd& scaling() const { return scaling_; }
 

@@ -46,7 +46,7 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
     for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot is near zero
       counted = share * t;
       ++counters.factorizations;
-      if (const std::optional<Index> count = factorization.inertia(shifted(K, B, counted)))
+      if (const auto count = factorization.sturm_count(shifted_matrix(K, B, counted)))
         return *count > 0;
     }
     return {};
@@ -76,12 +76,10 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
   solution.outcome = require_determinate_prestress(system);
   if (!solution.outcome.solved()) return solution;
-  const Prestress forces =
-      prestress_of(system, system.T * statics.q, system.load, body_forces(system));
+  const auto forces = prestress_of(system, system.T * statics.q, system.load, body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
   Factorization factorization;
-  const FirstFactor first =
-      bracket_first_factor(system.K, softening, factorization, solution.counters);
+  const auto first = bracket_first_factor(system.K, softening, factorization, solution.counters);
   if (!first.determined) {
     solution.outcome = {Status::not_converged,
                         "buckling factors cannot be counted: round-off dominates the pivots"};
@@ -104,7 +102,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
     return projected_stiffness(system, system.T * X);
   };
-  factorization.compute(shifted(system.K, softening, pencil.shift));
+  factorization.compute(shifted_matrix(system.K, softening, pencil.shift));
   ++solution.counters.factorizations;
   const Eigen::MatrixXd no_null(system.K.rows(), 0);
   const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,

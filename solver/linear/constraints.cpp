@@ -41,7 +41,7 @@ void add_linear_rows(const Model& model, const Coordinates& coordinates,
       if (!std::isfinite(coefficient))
         throw ModelError(part_label("constraint", model.constraints[i].name, i) +
                          " has a coefficient that is not a finite number");
-      row.terms.emplace_back(coordinates.number(model, coordinate), coefficient);
+      row.terms.emplace_back(coordinates.index_of(model, coordinate), coefficient);
     }
     rows.push_back(std::move(row));
   }
@@ -243,7 +243,7 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
   return constraints;
 }
 
-Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
+Eigen::VectorXd Constraints::lagrange_multipliers(const Eigen::VectorXd& force) const {
   // Solve the square system of the pivots of all independent rows except supports. A support row
   // has a single entry, so that its multiplier is the remaining force.
   std::vector<Index> kept, supports, number_of_pivot(to_size(T.rows()), -1);

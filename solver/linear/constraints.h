@@ -35,7 +35,7 @@ struct Constraints {
   /// `force`. They are the generalized forces [N, N m] of the constraints. They are 0 for dropped
   /// rows.
   /// @param force  force on each unconstrained coordinate [N, N m].
-  [[nodiscard]] Eigen::VectorXd multipliers(const Eigen::VectorXd& force) const;
+  [[nodiscard]] Eigen::VectorXd lagrange_multipliers(const Eigen::VectorXd& force) const;
 };
 
 /// Builds the constraint rows of a model and eliminates them, which results in the matrix T of u =

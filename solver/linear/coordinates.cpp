@@ -117,7 +117,7 @@ class Discretiser {
 
 }  // namespace
 
-Index Coordinates::number(const Model& model, const Coordinate& coordinate) const {
+Index Coordinates::index_of(const Model& model, const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
     if (coordinate.member < 0 || coordinate.member >= static_cast<Index>(member_end.size()) ||
         coordinate.end < 0 || coordinate.end > 1) {

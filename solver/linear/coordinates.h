@@ -58,7 +58,7 @@ struct Coordinates {
 
   /// Returns the index of a coordinate in u.
   /// @throws ModelError  if the node or member end has no such coordinate.
-  [[nodiscard]] Index number(const Model& model, const Coordinate& coordinate) const;
+  [[nodiscard]] Index index_of(const Model& model, const Coordinate& coordinate) const;
 };
 
 struct Discretisation {

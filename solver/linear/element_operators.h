@@ -85,8 +85,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
 /// @param element  frame element.
-/// @param load  load per unit length in world axes [N/m].
-[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
+/// @param line_load  load per unit length in world axes [N/m].
+[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& line_load);
 
 /// Returns the elastic forces K u on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
@@ -219,9 +219,9 @@ class Projection {
 
   /// Returns the symmetric sum of matrices. Entries above and below the diagonal are stored.
   [[nodiscard]] SparseMatrix build() const {
-    SparseMatrix lower(T_.cols(), T_.cols());
-    lower.setFromTriplets(entries_.begin(), entries_.end());
-    return lower.selfadjointView<Eigen::Lower>();
+    SparseMatrix triangle(T_.cols(), T_.cols());
+    triangle.setFromTriplets(entries_.begin(), entries_.end());
+    return triangle.selfadjointView<Eigen::Lower>();
   }
 
  private:

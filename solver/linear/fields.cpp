@@ -38,8 +38,7 @@ void add_body_force(System& system, const BodyForce& force) {
     const double thickness = system.model.plates[to_size(triangle.plate)].thickness;
     Eigen::Matrix<double, 2, 6> forces = Eigen::Matrix<double, 2, 6>::Zero();
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at =
-          evaluate_shape_functions(system.model, triangle, point.area_coordinates);
+      const auto at = evaluate_shape_functions(system.model, triangle, point.area_coordinates);
       forces += point.weight * at.area * thickness * force(at.position) * at.N.transpose();
     }
     detail::scatter(system.coordinates.triangle_dofs<12>(triangle), forces.reshaped(), system.load);
@@ -154,8 +153,7 @@ MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                             p.stress.squaredNorm(), energy_density(plate.material, p.stress));
     };
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at =
-          evaluate_shape_functions(system.model, triangle, point.area_coordinates);
+      const auto at = evaluate_shape_functions(system.model, triangle, point.area_coordinates);
       const MembraneFieldPoint h = membrane_point(system, triangle, at, u);
       const MembraneFieldPoint x = exact(at.position);
       const MembraneFieldPoint error{h.displacement - x.displacement, h.rotation - x.rotation,

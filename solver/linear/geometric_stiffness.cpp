@@ -192,8 +192,7 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   state.axial_variation.resize(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
-    state.axial_variation[i] =
-        -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
+    state.axial_variation[i] = -e.length * e.direction.dot(body.element[to_size(i)]);
   }
   state.stress = no_stress(system.model);
   for_each_stress_point(system.model,
@@ -257,7 +256,7 @@ Outcome require_determinate_prestress(const System& system) {
     amount = std::fmod(amount + std::numbers::phi, 1.0) + 0.5;
   }
   if (selfstress.isZero(0)) return {};
-  selfstress += constraints.multipliers(force);
+  selfstress += constraints.lagrange_multipliers(force);
   const BodyForces none{std::vector<Vector2d>(system.mesh.frame.size(), Vector2d::Zero()),
                         std::vector<Vector2d>(system.model.masses.size(), Vector2d::Zero())};
   const VectorXd at_rest = VectorXd::Zero(system.T.rows());

@@ -32,8 +32,7 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
   const VectorXd diagonal = system.K.diagonal(), squared_length = summed_squared_lengths(system);
-  const double largest =
-      diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
+  const auto largest = diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
   if (!(largest > 0)) return -1;
   for (Index i = 0; i < diagonal.size(); ++i)
     shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest * squared_length[i]);
@@ -92,7 +91,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   if (state) stiffened = system.K + K_G;
   const SparseMatrix& K = state ? stiffened : system.K;
   Factorization factorization;
-  factorization.compute(shifted(K, system.M, 0));
+  factorization.compute(shifted_matrix(K, system.M, 0));
   ++counters.factorizations;
   ZeroEnergyModes free{MatrixXd(K.rows(), 0)};
   if (!state) {
@@ -114,7 +113,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     pencil.B = &system.M;
     if (free.count() > 0) {
       pencil.shift = floating_shift(system, free.basis, counters);
-      factorization.compute(shifted(system.K, system.M, pencil.shift));
+      factorization.compute(shifted_matrix(system.K, system.M, pencil.shift));
       ++counters.factorizations;
     }
     pencil.K_times = [&, elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
@@ -189,7 +188,7 @@ ModalSolution solve_prestressed_modes(const System& system, const ModesOptions& 
 
 std::optional<Index> sturm_count(const System& system, double frequency) {
   const double w = 2 * std::numbers::pi * frequency;
-  return Factorization().inertia(system.K - w * w * system.M);
+  return Factorization().sturm_count(system.K - w * w * system.M);
 }
 
 }  // namespace trammel::solver

@@ -135,7 +135,7 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
     const SparseMatrix K = S.transpose() * K_of_set, M = S.transpose() * (system.M * S);
     const SparseMatrix coupling = SparseMatrix(to_boundary * K_of_set).transpose();
     Factorization factorization;
-    factorization.compute(shifted(K, M, 0));
+    factorization.compute(shifted_matrix(K, M, 0));
     ++counters.factorizations;
     for (Index j = 0; j < coupling.cols(); ++j) {
       if (coupling.col(j).nonZeros() == 0) continue;

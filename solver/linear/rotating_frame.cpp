@@ -278,8 +278,8 @@ double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& m
         w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
   const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
-  const auto counted = Factorization().inertia(shifted(pencil.K, pencil.M, 1e4 * last));
-  return counted ? std::abs(static_cast<double>(*counted - w.size())) : kNaN;
+  const auto count = Factorization().sturm_count(shifted_matrix(pencil.K, pencil.M, 1e4 * last));
+  return count ? std::abs(static_cast<double>(*count - w.size())) : kNaN;
 }
 
 GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, bool stable,
@@ -319,12 +319,11 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   const SparseMatrix& added = steady.added_stiffness();
   result.evidence.add(Residual::equilibrium,
                       steady_backward_error(system, added, state.q, options.frame));
-  const bool has_gyroscopic_forces =
-      options.gyroscopic && options.frame.axis == RotationAxis::normal;
+  const bool is_gyroscopic = options.gyroscopic && options.frame.axis == RotationAxis::normal;
   SparseMatrix C(system.K.rows(), system.K.cols());
-  if (has_gyroscopic_forces) {
+  if (is_gyroscopic) {
     C = 2 * speed * gyroscopic_matrix(system);
-    result.counters.count(Effect::gyroscopic, 1);
+    result.counters.add(Effect::gyroscopic, 1);
   }
   const GyroscopicPencil pencil{
       system.K + added, C, system.M, [&](const VectorXd& x) { return steady.restoring_forces(x); },

@@ -77,7 +77,7 @@ void RowBalance<Scalar>::add(const SparseMatrix& A, const Matrix& q) {
 }
 
 template <class Scalar>
-typename RowBalance<Scalar>::Matrix RowBalance<Scalar>::rows() const {
+typename RowBalance<Scalar>::Matrix RowBalance<Scalar>::row_residuals() const {
   return system_.T.transpose() * sum_ + free_sum_;
 }
 
@@ -88,7 +88,7 @@ MatrixXd RowBalance<Scalar>::row_term_magnitudes() const {
 
 template <class Scalar>
 double RowBalance<Scalar>::backward_error() const {
-  const MatrixXd residual = rows().cwiseAbs(), terms = row_term_magnitudes();
+  const MatrixXd residual = row_residuals().cwiseAbs(), terms = row_term_magnitudes();
   double largest = 0;
   for (Index state = 0; state < residual.cols(); ++state)
     largest = nan_max(largest, row_backward_error(residual.col(state), terms.col(state)));
@@ -102,7 +102,8 @@ double RowBalance<Scalar>::residual_over_load() const {
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
   // Increase each residual to at least its round-off error, because round-off errors cancel at some
   // orientations of the model. The result would otherwise depend on the orientation.
-  const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_term_magnitudes().col(0));
+  const VectorXd residual =
+      row_residuals().col(0).cwiseAbs().cwiseMax(kEps * row_term_magnitudes().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();
 }

@@ -29,7 +29,7 @@ class RowBalance {
   void add(const SparseMatrix& A, const Matrix& q);
   /// Adds magnitudes of terms to the scales of the rows of the unconstrained coordinates. Use it if
   /// an added term is a small difference of two larger values, with the magnitudes of these values.
-  void add_terms(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
+  void add_term_magnitudes(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
 
   /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates.
   /// The states would be exact solutions if matrices and loads were changed by at most this
@@ -43,13 +43,13 @@ class RowBalance {
 
   /// Returns the scale of each row of the unconstrained coordinates: the sum of the magnitudes of
   /// its terms [N, N m].
-  [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
+  [[nodiscard]] const Eigen::MatrixXd& magnitudes() const { return terms_; }
 
  private:
   /// Returns the magnitudes of the entries of u, increased to at least `kLeastFraction` of the
   /// largest magnitude in the same column.
   [[nodiscard]] Eigen::MatrixXd bounded_magnitudes(const Matrix& u) const;
-  [[nodiscard]] Matrix rows() const;
+  [[nodiscard]] Matrix row_residuals() const;
   [[nodiscard]] Eigen::MatrixXd row_term_magnitudes() const;
 
   const System& system_;

@@ -61,7 +61,7 @@ Outcome outcome_by_displacement_error(double error) {
           "displacements would be correct"};
 }
 
-double force_roundoff(const System& system, const VectorXd& q) {
+double relative_force_roundoff(const System& system, const VectorXd& q) {
   const VectorXd length = length_scales(system), u = system.T * q;
   double largest = 0, lost = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
@@ -127,7 +127,7 @@ void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, Stat
 bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   added_ = geometric_stiffness(system_, state.forces);
   const auto elements = std::ssize(system_.mesh.frame) + std::ssize(system_.model.triangles);
-  if (added_.nonZeros() > 0) counters_.count(Effect::geometric_stiffening, elements);
+  if (added_.nonZeros() > 0) counters_.add(Effect::geometric_stiffening, elements);
   if (softening_) added_ += *softening_;
   factorization_.compute(system_.K + added_);
   ++counters_.factorizations;
@@ -147,7 +147,7 @@ VectorXd StiffenedEquilibrium::restoring_forces(const VectorXd& q) const {
   return elastic_(q) + added_ * q;
 }
 
-double StiffenedEquilibrium::error(const StaticState& state) const {
+double StiffenedEquilibrium::relative_displacement_error(const StaticState& state) const {
   const Operator inverse = [this](const VectorXd& b) -> VectorXd {
     ++counters_.solves;
     return factorization_.solve(b);
@@ -169,10 +169,10 @@ double StiffenedEquilibrium::displacement_roundoff_of_forces(const StaticState& 
 }
 
 Prestress prestress_of(const System& system, const VectorXd& u, const VectorXd& load,
-                       const BodyForces& body, const Prestress* before) {
+                       const BodyForces& body, const Prestress* stiffening) {
   VectorXd force = internal_forces(system, u) - load;
-  if (before) force += geometric_stiffness_forces(system, *before, u);
-  return prestress(system, u, system.constraints.multipliers(force), body);
+  if (stiffening) force += geometric_stiffness_forces(system, *stiffening, u);
+  return prestress(system, u, system.constraints.lagrange_multipliers(force), body);
 }
 
 StaticState solve_second_order(const System& system, const VectorXd& linear, Counters& counters) {
@@ -208,7 +208,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
            << " times the loads";
     return {{whole.status, reason.str()}, {}, {}};
   }
-  reached.error = equilibrium.error(reached);
+  reached.error = equilibrium.relative_displacement_error(reached);
   reached.outcome = outcome_by_displacement_error(reached.error);
   return reached;
 }

@@ -32,18 +32,18 @@ struct StaticState {
 /// Returns the round-off error of the forces of elements on nodes, relative to the largest such
 /// force. It is large for stiff elements, because their deformation is a small difference of
 /// motions.
-[[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);
+[[nodiscard]] double relative_force_roundoff(const System& system, const Eigen::VectorXd& q);
 
 /// Computes the internal forces of a state under loads.
 /// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
-/// @param before  internal forces that define a geometric stiffness K_G, or null. The constraints
-///   then also balance the forces K_G u.
+/// @param stiffening  internal forces that define a geometric stiffness K_G, or null. The
+///   constraints then also balance the forces K_G u.
 [[nodiscard]] Prestress prestress_of(const System& system, const Eigen::VectorXd& u,
                                      const Eigen::VectorXd& load, const BodyForces& body,
-                                     const Prestress* before = nullptr);
+                                     const Prestress* stiffening = nullptr);
 
 /// Equilibrium (K + A + K_G) q = f with K_G from the internal forces of q itself. A is the
 /// softening matrix of a rotating frame, or absent. Without A the state must be stable: K + K_G has
@@ -66,7 +66,7 @@ class StiffenedEquilibrium {
 
   /// Returns the bound of the relative error of the displacements (StaticState::error) for the
   /// state that was solved last.
-  [[nodiscard]] double error(const StaticState& state) const;
+  [[nodiscard]] double relative_displacement_error(const StaticState& state) const;
   /// Returns the sum of the softening matrix A and the geometric stiffness K_G of the last equation
   /// that was solved.
   [[nodiscard]] const SparseMatrix& added_stiffness() const { return added_; }

@@ -51,12 +51,13 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
     // K_G results from differences of larger values. Their round-off errors are added to the scale
     // of the residual.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
-    rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
+    rows.add_term_magnitudes(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() /
+                             kEps);
   }
   solution.evidence.add(Residual::equilibrium, rows.backward_error());
   solution.evidence.add(Residual::load, rows.residual_over_load());
   solution.evidence.add(Residual::recovered_forces,
-                        largest_relative_imbalance(system, state, solution, rows.terms()));
+                        largest_relative_imbalance(system, state, solution, rows.magnitudes()));
 }
 
 }  // namespace
@@ -186,8 +187,7 @@ void recover_members(const System& system, const RecoveredForces& forces,
   for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
     const FrameElement& e = system.mesh.frame[i];
     const bool first = i == 0 || system.mesh.frame[i - 1].member != e.member;
-    const SectionForces section =
-        section_forces(forces.element.col(static_cast<Index>(i)), e.length);
+    const auto section = section_forces(forces.element.col(static_cast<Index>(i)), e.length);
     if (first) from_start = 0;
     if (first) solution.resultant_start.row(e.member) = section.start;
     solution.resultant_end.row(e.member) = section.end;
@@ -241,7 +241,8 @@ VectorXd acting_load(const System& system, const ElasticState& state) {
          (state.weight_factor - state.load_factor) * system.weight;
 }
 
-Vector2d acting_load(const System& system, const ElasticState& state, const FrameElement& element) {
+Vector2d acting_line_load(const System& system, const ElasticState& state,
+                          const FrameElement& element) {
   const Member& member = system.model.members[to_size(element.member)];
   return state.load_factor * member.load +
          state.weight_factor * element.section.mass_per_length * system.model.gravity;
@@ -252,7 +253,7 @@ VectorXd constraint_multipliers(const System& system, const ElasticState& state)
   VectorXd force = internal_forces(system, state.u) - acting_load(system, state);
   if (state.prestress) force += geometric_stiffness_forces(system, *state.prestress, state.u);
   if (state.acceleration.size() > 0) force += inertia_forces(system, state.acceleration);
-  return system.constraints.multipliers(force);
+  return system.constraints.lagrange_multipliers(force);
 }
 
 ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
@@ -286,7 +287,7 @@ ElementForces end_forces(const System& system, const ElasticState& state) {
     if (state.acceleration.size() > 0)
       force +=
           R * (world_mass_matrix(e, member) * detail::gather(e.coordinates, state.acceleration));
-    force -= R * element_load(e, acting_load(system, state, e));
+    force -= R * element_load(e, acting_line_load(system, state, e));
     forces.col(index) = force;
   }
   return forces;
@@ -363,8 +364,8 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     force = frame_transformation_matrix(e.direction).transpose() * force;
     // Add the nodal forces of the load along the element, because the section forces at its ends do
     // not include them.
-    detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
-                    sum);
+    detail::scatter(e.coordinates,
+                    (force + element_load(e, acting_line_load(system, state, e))).eval(), sum);
   }
 }
 

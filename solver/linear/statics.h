@@ -66,8 +66,8 @@ struct ElasticState {
 /// Returns the loads of a state on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd acting_load(const System& system, const ElasticState& state);
 /// Returns the load of a state along a frame element, in world axes [N/m].
-[[nodiscard]] Vector2d acting_load(const System& system, const ElasticState& state,
-                                   const FrameElement& element);
+[[nodiscard]] Vector2d acting_line_load(const System& system, const ElasticState& state,
+                                        const FrameElement& element);
 
 /// Forces of the nodes on each frame element in element axes, one column per element. The rows are
 /// axial force, transverse force and moment at the first node, then at the second node [N, N, N m].
@@ -96,8 +96,8 @@ struct ForceRoundoff {
 /// Returns force over area, or moment over section modulus [Pa]. If the section has no area or
 /// modulus, the result is 0 for a force at round-off level and NaN for a larger force.
 template <class T>
-[[nodiscard]] double stress_of_force(const T& force, double resistance, double roundoff) {
-  const double size = std::abs(force), stress = size / resistance;
+[[nodiscard]] double stress_of_force(const T& force, double area_or_modulus, double roundoff) {
+  const double size = std::abs(force), stress = size / area_or_modulus;
   if (std::isfinite(stress)) return stress;
   return size <= roundoff ? 0 : std::numeric_limits<double>::quiet_NaN();
 }

@@ -70,23 +70,23 @@ void count_effects(const System& system, bool has_inertia, Counters& counters) {
     const Member& member = model.members[to_size(e.member)];
     const bool has_mass = e.section.mass_per_length > 0;
     const bool turns = e.section.inertia_per_length > 0;
-    if (!e.is_bar() && member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
-    if (!e.is_bar() && has_shear_deformation(member.theory)) counters.count(Effect::shear, 1);
-    if (has_inertia && (has_mass || turns)) counters.count(Effect::link_mass, 1);
+    if (!e.is_bar() && member.axially_flexible) counters.add(Effect::axial_flexibility, 1);
+    if (!e.is_bar() && has_shear_deformation(member.theory)) counters.add(Effect::shear, 1);
+    if (has_inertia && (has_mass || turns)) counters.add(Effect::link_mass, 1);
     if (has_inertia && turns && has_rotary_inertia(member.theory))
-      counters.count(Effect::rotary_inertia, 1);
+      counters.add(Effect::rotary_inertia, 1);
     if (!has_weight || !has_mass) continue;
-    counters.count(Effect::gravity, 1);
-    counters.count(Effect::link_mass, 1);
+    counters.add(Effect::gravity, 1);
+    counters.add(Effect::link_mass, 1);
   }
   for (const Member& member : model.members) {
     for (const MemberEnd& end : member.ends)
-      if (end.fixity == EndFixity::sprung) counters.count(Effect::joint_compliance, 1);
+      if (end.fixity == EndFixity::sprung) counters.add(Effect::joint_compliance, 1);
   }
-  counters.count(Effect::platform_flexibility, std::ssize(model.triangles));
+  counters.add(Effect::platform_flexibility, std::ssize(model.triangles));
   if (has_weight)
-    counters.count(Effect::gravity, std::ssize(model.triangles) + std::ssize(model.masses));
-  if (has_inertia) counters.count(Effect::inertia, 1);
+    counters.add(Effect::gravity, std::ssize(model.triangles) + std::ssize(model.masses));
+  if (has_inertia) counters.add(Effect::inertia, 1);
 }
 
 Eigen::VectorXd weight_of(const System& system) {
@@ -115,7 +115,7 @@ Eigen::VectorXd applied_load(const System& system) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const NodalLoad& load : model.loads) {
     if (load.force[2] != 0) {  // throws if the node has no rotation
-      (void)system.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
+      (void)system.coordinates.index_of(model, {Coordinate::Kind::rotation, load.node, -1, 0});
     }
     detail::scatter(node[to_size(load.node)], load.force, sum);
   }
@@ -136,14 +136,14 @@ Eigen::VectorXd applied_load(const System& system) {
 
 }  // namespace
 
-Vector6d element_load(const FrameElement& element, const Vector2d& load) {
+Vector6d element_load(const FrameElement& element, const Vector2d& line_load) {
   if (element.is_bar()) {
     Vector6d f;
-    f << load * (element.length / 2), 0, load * (element.length / 2), 0;
+    f << line_load * (element.length / 2), 0, line_load * (element.length / 2), 0;
     return f;
   }
   const Matrix6d R = frame_transformation_matrix(element.direction);
-  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
+  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * line_load, element.length);
 }
 
 System assemble(const Model& model, Effects active) {

@@ -86,8 +86,8 @@ class MotionSolver {
   EquationOfMotion equation() {
     EquationOfMotion equation;
     equation.M = equation.K = moving_.K();
-    if (follower_.damped() || options_.gyroscopic) equation.C = moving_.K();
-    follower_.matrices(equation.M, equation.C, equation.K);
+    if (follower_.is_damped() || options_.gyroscopic) equation.C = moving_.K();
+    follower_.compute_matrices(equation.M, equation.C, equation.K);
     // The load is NaN if the pose is out of reach, which ends the integration.
     equation.load = [this](double time, VectorXd& f) {
       if (follower_.update_to(time)) {
@@ -96,7 +96,7 @@ class MotionSolver {
         f.setConstant(kNaN);
       }
     };
-    if (!options_.load_history.constant()) equation.breakpoints = options_.load_history.time;
+    if (!options_.load_history.is_constant()) equation.breakpoints = options_.load_history.time;
     if (options_.gyroscopic) {
       equation.working_motion = [this](double time, const VectorXd& q, const VectorXd& v) {
         follower_.update_to(time);  // an unreachable pose has already made the load NaN
@@ -105,7 +105,7 @@ class MotionSolver {
     }
     if (!follower_.is_at_rest()) {
       equation.update = [this](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-        if (follower_.update_to(time)) follower_.matrices(M, C, K);
+        if (follower_.update_to(time)) follower_.compute_matrices(M, C, K);
       };
     }
     return equation;
@@ -149,7 +149,7 @@ class MotionSolver {
   /// part of f that the wrench on the platform causes.
   [[nodiscard]] PiecewiseLinearLoad load_in_time(const VectorXd& f) const {
     const LoadHistory& history = options_.load_history;
-    if (history.constant()) return step_load(f, options_.time.start);
+    if (history.is_constant()) return step_load(f, options_.time.start);
     const System& start = moving_.start();
     const VectorXd applied = start.T.transpose() * start.load;
     return load_by_history(history, applied, f - history.at(options_.time.start) * applied);
@@ -186,10 +186,10 @@ class MotionSolver {
       const VectorXd a = response.a.col(column);
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load would require an integral over time and is not computed.
-      energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
+      energy.work = options_.load_history.is_constant() ? f.dot(q - q0) : kNaN;
       // Damping has dissipated the difference between the supplied and the current energy. Without
       // damping, this difference is only round-off error.
-      if (follower_.damped())
+      if (follower_.is_damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
     }
@@ -224,7 +224,7 @@ class MotionSolver {
     const VectorXd zero = VectorXd::Zero(equation.K.rows());
     time.q0 = time.v0 = zero;
     Outcome outcome = start_quasi_statically(matrices, options_.time, time.q0, time.v0, counters);
-    if (!outcome.solved() || !follower_.damped() || !follower_.update_to(time.start))
+    if (!outcome.solved() || !follower_.is_damped() || !follower_.update_to(time.start))
       return outcome;
     const VectorXd drag = follower_.forces(time.q0, time.v0, zero).working.drag;
     const VectorXd f = follower_.load() - moving_.constraints().T.transpose() * drag;
@@ -278,7 +278,7 @@ class MotionSolver {
       return;
     }
     solution_.time.push_back(sample.time);
-    solution_.nominal.push_back(follower_.point());
+    solution_.nominal.push_back(follower_.platform_state());
     solution_.nominal.back().time = sample.time;
     solution_.energy.push_back(sample.energy);
     // Exclude samples at which a load starts or jumps from the balance of forces, because massless
@@ -309,13 +309,13 @@ class MotionSolver {
 
   void update_effect_numbers() {
     const double inertia = follower_.energy_norm(moving_.inertia_load());
-    const double share = inertia == 0 ? 0 : inertia / follower_.energy_norm(moving_.load());
+    const auto ratio = inertia == 0 ? 0 : inertia / follower_.energy_norm(moving_.external_load());
     double& largest = solution_.effects.nominal_inertia;
-    largest = nan_max(largest, share);
+    largest = nan_max(largest, ratio);
     max_angular_velocity_ =
         std::max(max_angular_velocity_, largest_angular_velocity(moving_.motion()));
     const Vector3d unit(1, 1, platform_radius(options_.design.geometry));
-    const TrajectoryPoint& point = follower_.point();
+    const TrajectoryPoint& point = follower_.platform_state();
     max_velocity_ = std::max(max_velocity_, point.velocity.cwiseProduct(unit).norm());
     max_acceleration_ = std::max(max_acceleration_, point.acceleration.cwiseProduct(unit).norm());
   }
@@ -424,7 +424,7 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   StaticSolution state;
   state.q = q;
   const Constraints& constraints = moving.constraints();
-  const VectorXd multipliers = constraints.multipliers(forces.total);
+  const VectorXd multipliers = constraints.lagrange_multipliers(forces.total);
   std::vector<Vector2d> positions;
   for (Index node = 0; node < std::ssize(moving.start().mesh.positions); ++node)
     positions.push_back(moving.position(node));

@@ -68,7 +68,7 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
                                   .mass = design.platform.mass,
                                   .inertia = design.platform.inertia};
   const ManipulatorGeometry& g = design.geometry;
-  if (parameter.platform) seed(detail::number(platform, parameter.kind));
+  if (parameter.platform) seed(detail::property(platform, parameter.kind));
   seeded.platform_mass = platform_mass(platform, g.platform);
   seeded.plate_rigidity = platform.material.E * platform.thickness;
   const bool length = parameter.kind == DesignParameter::Kind::length;
@@ -115,7 +115,7 @@ class SetDerivative {
     multipliers_.resize(std::ssize(system.constraints.rows), U.cols());
     for (Index j = 0; j < U.cols(); ++j) {
       const VectorXd u = U.col(j);
-      multipliers_.col(j) = system.constraints.multipliers(
+      multipliers_.col(j) = system.constraints.lagrange_multipliers(
           internal_forces(system, u) - omega_squared * inertia_forces(system, u));
     }
   }
@@ -173,8 +173,7 @@ class SetDerivative {
     for (const PointMass& lump : system_.model.masses) {
       const Eigen::Matrix3d dm = rates_of(
           point_mass_matrix(design.platform_mass.mass, design.platform_mass.inertia, lump.offset));
-      const auto u =
-          gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
+      const auto u = gather_modes(system_.coordinates.node[to_size(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
     // Deformations are accurate even if they are small compared with the rigid motion of a stiff

@@ -44,7 +44,7 @@ namespace detail {
 
 /// Returns the property of a link or platform to which the parameter refers, or null.
 template <class Part>
-[[nodiscard]] auto number(Part& part, DesignParameter::Kind kind) -> decltype(&part.thickness) {
+[[nodiscard]] auto property(Part& part, DesignParameter::Kind kind) -> decltype(&part.thickness) {
   switch (kind) {
     case DesignParameter::Kind::thickness:
       return &part.thickness;
@@ -62,7 +62,7 @@ template <class Part>
 /// Returns the property of a link to which the parameter refers, or null.
 template <class T>
 [[nodiscard]] T* link_property(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
-  return kind == DesignParameter::Kind::width ? &link.width : number(link, kind);
+  return kind == DesignParameter::Kind::width ? &link.width : property(link, kind);
 }
 
 }  // namespace detail

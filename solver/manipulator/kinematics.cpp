@@ -166,7 +166,7 @@ template Eigen::Vector2<Dual> elbow_position(const Vector2d&, const Vector2d&, c
                                              const Dual&, int);
 
 ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
-                                     const std::array<double, 3>& active, const Pose& start) {
+                                     const std::array<double, 3>& angles, const Pose& start) {
   check_geometry(g);
   constexpr int kMaxIterations = 50;
   const double size = platform_radius(g);
@@ -179,7 +179,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);
       const Vector2d c = rotated(g.platform[i], result.pose.phi);
-      const Vector2d B = g.base[i] + g.proximal[i] * unit(active[i]);
+      const Vector2d B = g.base[i] + g.proximal[i] * unit(angles[i]);
       const Vector2d d = result.pose.position() + c - B;
       const double gap = std::hypot(d.x(), d.y()) - g.distal[i];
       residual(k) = gap * (1 + gap / (2 * g.distal[i]));

@@ -101,10 +101,10 @@ struct ForwardKinematics {
   double closure_error = 0;  ///< largest error of a distal length [m]
   int iterations = 0;
 };
-/// Computes the pose of the platform from the absolute angles `active` of the proximal links [rad].
-/// Newton's method solves the loop equations |C_i - B_i|^2 = distal_i^2, starting at `start`.
+/// Computes the pose of the platform from the absolute angles of the proximal links [rad]. Newton's
+/// method solves the loop equations |C_i - B_i|^2 = distal_i^2, starting at `start`.
 [[nodiscard]] ForwardKinematics forward_kinematics(const ManipulatorGeometry& geometry,
-                                                   const std::array<double, 3>& active,
+                                                   const std::array<double, 3>& angles,
                                                    const Pose& start);
 
 /// Jacobian matrices J_x and J_q between platform and actuator rates, J_x (xdot, ydot, phidot) =

@@ -33,10 +33,9 @@ double coefficient(const System& start, const ConstraintRow& row, std::size_t te
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
     const FrameElement& e = start.mesh.frame[to_size(row.index)];
-    const Vector2d d = part_of(start, row, motion)->derivative(e.direction, order);
-    const auto local =
-        std::ranges::find(e.coordinates, row.terms[term].first) - e.coordinates.begin();
-    return (local >= 3 ? 1 : -1) * (local % 3 == 0 ? d.x() : d.y());
+    const Vector2d d = part_of(start, row, motion)->rotated_derivative(e.direction, order);
+    const auto at = std::ranges::find(e.coordinates, row.terms[term].first) - e.coordinates.begin();
+    return (at >= 3 ? 1 : -1) * (at % 3 == 0 ? d.x() : d.y());
   }
   const Index first = row.terms.front().first;
   const auto& coordinates = start.coordinates;
@@ -47,7 +46,7 @@ double coefficient(const System& start, const ConstraintRow& row, std::size_t te
   const Index reference = start.model.rigid_bodies[to_size(row.index)].reference;
   const Vector2d arm =
       start.mesh.positions[to_size(node)] - start.mesh.positions[to_size(reference)];
-  const Vector2d now = part_of(start, row, motion)->derivative(arm, order);
+  const Vector2d now = part_of(start, row, motion)->rotated_derivative(arm, order);
   return first == coordinates.node[to_size(node)][0] ? now.y() : -now.x();
 }
 
@@ -122,8 +121,8 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
 
 /// Returns the product of C (order 0) or its time derivative (1, 2) and a matrix with one row per
 /// coordinate. Only the rows of C in dependent_rows_ are included.
-MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
-                                    const RowMajorMatrix& matrix) const {
+MatrixXd MovingConstraints::derivative_times(const System& start, const NominalMotion& motion,
+                                             int order, const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
   for (Index i = 0; i < sum.rows(); ++i) {
     const ConstraintRow& row = constraints_.rows[dependent_rows_[to_size(i)]];
@@ -139,11 +138,11 @@ MatrixXd MovingConstraints::product(const System& start, const NominalMotion& mo
 /// Returns X of C_p X = - C_f, which expresses the eliminated coordinates (rows) by the free ones.
 MatrixXd MovingConstraints::dependent_coordinate_matrix(const System& start,
                                                         const NominalMotion& motion) {
-  pivots_.compute(product(start, motion, 0, select_dependent_));
-  return pivots_.solve(-product(start, motion, 0, select_free_));
+  pivots_.compute(derivative_times(start, motion, 0, select_dependent_));
+  return pivots_.solve(-derivative_times(start, motion, 0, select_free_));
 }
 
-void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) const {
+void MovingConstraints::store_dependent_rows(const MatrixXd& values, RowMajorMatrix& target) const {
   for (Index u = 0; u < target.rows(); ++u) {
     const Index row = dependent_row_of_[to_size(u)];
     if (row < 0) continue;
@@ -152,8 +151,8 @@ void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) co
   }
 }
 
-Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
-                                const NominalMotion& to) {
+Outcome MovingConstraints::update_transformation(const System& start, const NominalMotion& from,
+                                                 const NominalMotion& to) {
   const bool changes = std::ranges::any_of(constraints_.rows, [&](const ConstraintRow& row) {
     const PartMotion *before = part_of(start, row, from), *after = part_of(start, row, to);
     return before != nullptr && *before != *after;
@@ -168,11 +167,12 @@ Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
     for (std::size_t t = 0; t < row.terms.size(); ++t)
       row.terms[t].second = coefficient(start, row, t, to, 0);
   }
-  store(X, constraints_.T);
+  store_dependent_rows(X, constraints_.T);
   if (!derivatives_) return {};
-  store(pivots_.solve(-product(start, to, 1, constraints_.T)), T_dot_);
-  store(pivots_.solve(-product(start, to, 2, constraints_.T) - 2 * product(start, to, 1, T_dot_)),
-        T_ddot_);
+  store_dependent_rows(pivots_.solve(-derivative_times(start, to, 1, constraints_.T)), T_dot_);
+  store_dependent_rows(pivots_.solve(-derivative_times(start, to, 2, constraints_.T) -
+                                     2 * derivative_times(start, to, 1, T_dot_)),
+                       T_ddot_);
   return {};
 }
 

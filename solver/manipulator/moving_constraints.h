@@ -28,8 +28,8 @@ class MovingConstraints {
   /// which T was computed last. T is kept if all members and bodies have the same motion in both.
   /// The outcome is singular if the constraints do not determine the eliminated coordinates at the
   /// pose of `to`. T is then also kept. `start` is the system at the pose at which it was built.
-  [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
-                             const NominalMotion& to);
+  [[nodiscard]] Outcome update_transformation(const System& start, const NominalMotion& from,
+                                              const NominalMotion& to);
 
   /// Returns the constraints at the current pose. T stores all entries that are nonzero at any
   /// pose.
@@ -48,9 +48,9 @@ class MovingConstraints {
   void extend_pattern(const System& start, const NominalMotion& motion);
   [[nodiscard]] Eigen::MatrixXd dependent_coordinate_matrix(const System& start,
                                                             const NominalMotion& motion);
-  [[nodiscard]] Eigen::MatrixXd product(const System& start, const NominalMotion& motion, int order,
-                                        const RowMajorMatrix& matrix) const;
-  void store(const Eigen::MatrixXd& values, RowMajorMatrix& target) const;
+  [[nodiscard]] Eigen::MatrixXd derivative_times(const System& start, const NominalMotion& motion,
+                                                 int order, const RowMajorMatrix& matrix) const;
+  void store_dependent_rows(const Eigen::MatrixXd& values, RowMajorMatrix& target) const;
 
   Constraints constraints_;
   bool derivatives_, variable_ = false;

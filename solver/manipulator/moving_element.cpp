@@ -9,7 +9,7 @@
 
 namespace trammel::solver {
 
-Vector2d PartMotion::derivative(const Vector2d& at_start, int order) const {
+Vector2d PartMotion::rotated_derivative(const Vector2d& at_start, int order) const {
   const Vector2d now = rotated(at_start, angle);
   if (order == 0) return now;
   if (order == 1) return rate * perpendicular(now);
@@ -36,7 +36,7 @@ NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics
     const Vector2d arm = model.nodes[to_size(node)].position - start;
     for (int order = 0; order < 3; ++order)
       motion.node[to_size(order)].row(node) =
-          carrier[to_size(order)] + turns.derivative(arm, order);
+          carrier[to_size(order)] + turns.rotated_derivative(arm, order);
   };
   for (Index limb = 0; limb < 3; ++limb) {
     const Vector2d& A = model.nodes[to_size(limb)].position;
@@ -169,8 +169,8 @@ void add_scalars(const System& system, std::vector<MovingElement>& elements) {
 
 }  // namespace
 
-Vector2d MovingElement::direction(const NominalMotion& nominal) const {
-  const double angle = motion(nominal).angle;
+Vector2d MovingElement::axis_direction(const NominalMotion& nominal) const {
+  const double angle = part_motion(nominal).angle;
   return angle == 0 ? axis : rotated(axis, angle);
 }
 

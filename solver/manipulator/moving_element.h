@@ -22,7 +22,7 @@ struct PartMotion {
   /// Returns a vector that rotates with the member, plate or rigid body (order 0), or the time
   /// derivative of this vector (order 1, 2). The vector is `at_start` at the pose at which the
   /// model was built.
-  [[nodiscard]] Vector2d derivative(const Vector2d& at_start, int order) const;
+  [[nodiscard]] Vector2d rotated_derivative(const Vector2d& at_start, int order) const;
 };
 
 /// Nominal motion: every member, plate and rigid body of a model moves as a rigid part.
@@ -89,19 +89,20 @@ struct MovingElement {
   Index part = -1;                           ///< index in NominalMotion::part; -1: does not turn
   Vector2d first_moment = Vector2d::Zero();  ///< mass * offset of a point mass [kg m]
 
-  [[nodiscard]] PartMotion motion(const NominalMotion& nominal) const {
+  [[nodiscard]] PartMotion part_motion(const NominalMotion& nominal) const {
     return part < 0 ? PartMotion{} : nominal.part[to_size(part)];
   }
   /// Returns the element x axis during a motion, world axes.
-  [[nodiscard]] Vector2d direction(const NominalMotion& nominal) const;
+  [[nodiscard]] Vector2d axis_direction(const NominalMotion& nominal) const;
   /// Returns the number of coordinates per node.
-  [[nodiscard]] Index stride() const { return layout == Layout::triangle ? 2 : 3; }
+  [[nodiscard]] Index coordinates_per_node() const { return layout == Layout::triangle ? 2 : 3; }
 
   /// Rotates the columns of a block (any x 6), one per coordinate, from element axes to world axes.
   template <class Block>
   void to_world(Block& v, const Vector2d& direction) const {
     if (layout == Layout::scalar) return;
-    for (Index i = 0; i + 1 < 6; i += stride()) rotate_adjacent_columns(v, i, direction.x(), direction.y());
+    for (Index i = 0; i + 1 < 6; i += coordinates_per_node())
+      rotate_adjacent_columns(v, i, direction.x(), direction.y());
   }
   /// Rotates the columns of a block from world axes to element axes.
   template <class Block>

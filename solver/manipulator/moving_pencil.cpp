@@ -89,7 +89,7 @@ Outcome MovingPencil::move_to(const Posture& posture, const Pose& pose) {
   const RowMajorMatrix& T = system_.constraints().T;
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const MovingElement& element = system_.elements()[l];
-    const Vector2d direction = element.direction(next_);
+    const Vector2d direction = element.axis_direction(next_);
     const auto& P = system_.links()[l].P;
     for (Index j = 0; j < P.rows(); ++j) {
       Eigen::Matrix<double, 1, 6> row = P.row(j);
@@ -170,7 +170,7 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
       const Index u = element.coordinates[to_size(i)];
       if (u >= 0) v.col(i) = U.col(u);
     }
-    element.to_element_axes(v, element.direction(system_.motion()));
+    element.to_element_axes(v, element.axis_direction(system_.motion()));
     for (Index k = 0; k < 3; ++k) {
       if (element.c[k] == 0) continue;
       Eigen::Array<double, rows, 1> d = Eigen::Array<double, rows, 1>::Zero(), magnitude = d;

@@ -96,7 +96,7 @@ class MovingPencil {
   /// coordinates.
   [[nodiscard]] Index free_coordinate_count() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
-  [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of link modes
+  [[nodiscard]] double largest_coupling() const { return coupling_; }  ///< of the modes of links
 
   /// Returns the stiffness of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }

@@ -150,17 +150,17 @@ Vector2d MovingSystem::interpolate_at_mesh_node(Index mesh_node,
 /// Returns the inertia load of the nominal motion on an element, in element axes. The interpolation
 /// represents the nominal acceleration, an affine field, exactly. A point mass that is offset from
 /// its node adds a centrifugal force.
-Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
-                                       const Vector2d& direction) const {
+Vector6d MovingSystem::element_inertia_load(const MovingElement& element, const PartMotion& part,
+                                            const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
   for (Index i = 0; i < 6; ++i) {
     const Index u = element.coordinates[to_size(i)];
     if (u < 0) continue;
     const bool rotation =
-        element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
+        element.layout == MovingElement::Layout::scalar || i % element.coordinates_per_node() == 2;
     a[i] = rotation ? part.acceleration
                     : interpolate_at_mesh_node(start_.coordinates.node_of[to_size(u)],
-                                               motion_.node[2])[i % element.stride()];
+                                               motion_.node[2])[i % element.coordinates_per_node()];
   }
   element.to_element_axes(a, direction);
   Vector6d f = -element.m * a.transpose();
@@ -173,13 +173,14 @@ Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& dire
   Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
   if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
     return Vector6d::Zero();
-  for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
+  for (Index i = 0; i + 1 < 6; i += element.coordinates_per_node())
+    g.segment<2>(i) = motion_.gravity;
   element.to_element_axes(g, direction);
   return element.m * g.transpose();
 }
 
 Outcome MovingSystem::move_to(const NominalMotion& motion) {
-  const Outcome outcome = constraints_.move(start_, motion_, motion);
+  const Outcome outcome = constraints_.update_transformation(start_, motion_, motion);
   if (!outcome.solved()) return outcome;
   motion_ = motion;
   for (SparseMatrix* A : {&K_, &M_, &C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})
@@ -195,15 +196,15 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
 }
 
 void MovingSystem::add_loads(const MovingElement& element) {
-  const Vector2d direction = element.direction(motion_);
-  scatter_local(element, direction, nominal_inertia(element, element.motion(motion_), direction),
-                inertia_u_);
+  const Vector2d direction = element.axis_direction(motion_);
+  scatter_local(element, direction,
+                element_inertia_load(element, element.part_motion(motion_), direction), inertia_u_);
   scatter_local(element, direction, weight(element, direction), load_u_);
 }
 
 void MovingSystem::add_matrices(std::size_t index) {
   const MovingElement& element = elements_[index];
-  const Vector2d direction = element.direction(motion_);
+  const Vector2d direction = element.axis_direction(motion_);
   const Matrix6d k = element.matrix_in_world_axes(element.k, direction);
   const Matrix6d m = element.matrix_in_world_axes(element.m, direction);
   const double* const T = constraints_.T().valuePtr();
@@ -221,12 +222,10 @@ void MovingSystem::add_matrices(std::size_t index) {
 void MovingSystem::add_gyroscopic_matrices(std::size_t index, const Matrix6d& k,
                                            const Matrix6d& m) {
   const MovingElement& element = elements_[index];
-  const PartMotion part = element.motion(motion_);
-  const Vector2d direction = element.direction(motion_);
-  const Matrix6d first_derivative =
-      element.matrix_in_world_axes(element.first_derivative, direction);
-  const Matrix6d second_derivative =
-      element.matrix_in_world_axes(element.second_derivative, direction);
+  const PartMotion part = element.part_motion(motion_);
+  const Vector2d direction = element.axis_direction(motion_);
+  const auto first_derivative = element.matrix_in_world_axes(element.first_derivative, direction);
+  const auto second_derivative = element.matrix_in_world_axes(element.second_derivative, direction);
   const Matrix6d c = 2 * part.rate * first_derivative;
   const Matrix6d s =
       part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
@@ -262,8 +261,8 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   forces.total = -forces.external;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const MovingElement& element = elements_[e];
-    const PartMotion part = element.motion(motion_);
-    const Vector2d direction = element.direction(motion_);
+    const PartMotion part = element.part_motion(motion_);
+    const Vector2d direction = element.axis_direction(motion_);
     const Vector6d u = gather_local(element, direction, forces.working.u);
     const Vector6d velocity = gather_local(element, direction, u_dot);
     const Vector6d strain_force = element.k * u, momentum = element.m * velocity;
@@ -274,7 +273,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
       inertia += 2 * part.rate * (element.first_derivative * velocity) +
                  part.acceleration * (element.first_derivative * u) +
                  part.rate * part.rate * (element.second_derivative * u);
-    if (with_inertia) inertia -= nominal_inertia(element, part, direction);
+    if (with_inertia) inertia -= element_inertia_load(element, part, direction);
     inertia -= weight(element, direction);
     const Vector6d f = strain_force + strain_drag + inertia;
     forces.working.strain += u.dot(strain_force) / 2;
@@ -313,7 +312,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
 
 bool PathFollower::update_to(double time) {
   if (time == time_) return outcome_.solved();
-  if (is_at_rest_ && options_.load_history.constant() && !std::isnan(time_)) {
+  if (is_at_rest_ && options_.load_history.is_constant() && !std::isnan(time_)) {
     point_.time = time;
   } else {
     outcome_ = move_to(time, options_.gravity);
@@ -339,26 +338,26 @@ Vector3d PathFollower::wrench(double time) const {
   return options_.load_history.at(time) * options_.wrench;
 }
 
-bool PathFollower::damped() const {
+bool PathFollower::is_damped() const {
   return options_.damping.mass != 0 || options_.damping.stiffness != 0;
 }
 
 VectorXd PathFollower::load() const {
-  VectorXd f = moving_.load();
+  VectorXd f = moving_.external_load();
   if (options_.nominal_inertia) f += moving_.inertia_load();
   return f;
 }
 
-void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
+void PathFollower::compute_matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
   K.coeffs() = moving_.K().coeffs();
   M.coeffs().setZero();
   if (options_.elastic_inertia) M.coeffs() = moving_.M().coeffs();
   const auto [mass, stiffness] = options_.damping;
-  if (damped() || options_.gyroscopic)
+  if (is_damped() || options_.gyroscopic)
     C.coeffs() = mass * M.coeffs() + stiffness * moving_.K().coeffs();
-  if (damped()) counters_.count(Effect::damping, 1);
+  if (is_damped()) counters_.add(Effect::damping, 1);
   if (!options_.gyroscopic) return;
-  counters_.count(Effect::gyroscopic, 1);
+  counters_.add(Effect::gyroscopic, 1);
   C.coeffs() += moving_.gyroscopic_matrix().coeffs();
   K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs() +
                 mass * moving_.M_T_dot().coeffs() + stiffness * moving_.K_T_dot().coeffs();
@@ -392,10 +391,10 @@ Vector3d PathFollower::rigid_torque() const {
 
 Counters PathFollower::counters() const {
   Counters all = counters_;
-  all.element_evaluations += moving_.element_evaluations();
+  all.element_evaluations += moving_.evaluations_per_pose();
   all.effects = moving_.start().counters.effects;
   for (std::size_t i = 0; i < kEffectCount; ++i) all.effects[i] += counters_.effects[i];
-  if (!options_.gravity.isZero(0)) all.count(Effect::gravity, 1);
+  if (!options_.gravity.isZero(0)) all.add(Effect::gravity, 1);
   return all;
 }
 

@@ -67,7 +67,7 @@ class MovingSystem {
   /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
   /// Returns the weight plus the loads of the model, which are constant in world axes [N, N m].
-  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
+  [[nodiscard]] const Eigen::VectorXd& external_load() const { return load_; }
 
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
   /// Returns the nominal position of a mesh node [m].
@@ -95,7 +95,7 @@ class MovingSystem {
                               const Eigen::VectorXd& a, const RayleighDamping& damping,
                               bool with_inertia) const;
 
-  [[nodiscard]] std::int64_t element_evaluations() const {
+  [[nodiscard]] std::int64_t evaluations_per_pose() const {
     return 2 * (std::ssize(start_.mesh.frame) + std::ssize(start_.model.triangles));
   }
 
@@ -122,8 +122,8 @@ class MovingSystem {
   void add_loads(const MovingElement& element);
   [[nodiscard]] Vector2d interpolate_at_mesh_node(Index mesh_node,
                                                   const Eigen::MatrixX2d& values) const;
-  [[nodiscard]] Vector6d nominal_inertia(const MovingElement& element, const PartMotion& part,
-                                         const Vector2d& direction) const;
+  [[nodiscard]] Vector6d element_inertia_load(const MovingElement& element, const PartMotion& part,
+                                              const Vector2d& direction) const;
   [[nodiscard]] Vector6d weight(const MovingElement& element, const Vector2d& direction) const;
 
   MovingSystemOptions options_;
@@ -163,10 +163,10 @@ class PathFollower {
                                             const Eigen::VectorXd& a) const {
     return moving_.forces(q, v, a, options_.damping, options_.nominal_inertia);
   }
-  [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
+  [[nodiscard]] const TrajectoryPoint& platform_state() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
-  [[nodiscard]] bool damped() const;
+  [[nodiscard]] bool is_damped() const;
 
   // Loads, matrices and static solutions at the current pose of the manipulator, in free
   // coordinates.
@@ -176,7 +176,7 @@ class PathFollower {
   [[nodiscard]] Eigen::VectorXd load() const;
   /// Computes M, C + G and K + S (elastodynamics.h), including damping forces of the velocity dT/dt
   /// q. C is unchanged without damping and gyroscopic terms.
-  void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
+  void compute_matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
   /// Solves K q = f. Returns false if K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
   /// Returns (f^T K^-1 f)^(1/2) [J^(1/2)], the square root of twice the strain energy under the

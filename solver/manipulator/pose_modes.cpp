@@ -20,9 +20,9 @@ namespace {
 constexpr Index kBlock = 64;    // number of poses that one thread solves in sequence
 constexpr Index kGuard = 3;     // number of iteration vectors in addition to the requested modes
 constexpr Index kLargest = 48;  // joint coordinates above which sparse matrices are faster
-constexpr double kSmallestPivot = 1e-9;    // limit of pivots of the scaled K: a loss of nine digits
-constexpr double kLargestCoupling = 1e-7;  // limit of mode coupling; its square changes eigenvalues
-constexpr double kTolerance = 1e-11;  // limit of the relative change of eigenvalues in one step
+constexpr double kSmallestPivot = 1e-9;  // limit of pivots of the scaled K: a loss of nine digits
+constexpr double kMaxCoupling = 1e-7;    // limit of mode coupling; its square changes eigenvalues
+constexpr double kTolerance = 1e-11;     // limit of the relative change of eigenvalues in one step
 // Backward error of modes at which the iteration ends. Up to ten times this value is accepted.
 constexpr double kResidual = 1e-11;
 constexpr double kClearGap = 1e-3;  // relative difference of eigenvalues that count as distinct
@@ -91,7 +91,8 @@ class BlockSolver {
     if (pencil_.joint_coordinate_count() > kLargest ||
         pencil_.joint_coordinate_count() + pencil_.interior_mode_count() < rows)
       return false;
-    if (task_.options.count + kGuard > rows || pencil_.coupling() > kLargestCoupling) return false;
+    if (task_.options.count + kGuard > rows || pencil_.largest_coupling() > kMaxCoupling)
+      return false;
     if (!pencil_.move_to(posture, task_.poses[at]).solved()) return false;
     ++counters.factorizations;
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
@@ -288,7 +289,7 @@ PoseModes solve_pose_modes(const ManipulatorDesign& whole_design, const std::vec
   const MovingPencil pencil(model_at(task, *start), design.geometry, *start);
   result.counters = pencil.counters();
   result.free_coordinates = pencil.free_coordinate_count();
-  result.coupling = pencil.coupling();
+  result.coupling = pencil.largest_coupling();
   const auto blocks = static_cast<Index>((poses.size() + kBlock - 1) / kBlock);
   const Index cores = std::max<Index>(1, std::thread::hardware_concurrency());
   const auto threads = std::min(blocks, options.threads > 0 ? options.threads : cores);

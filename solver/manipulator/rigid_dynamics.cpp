@@ -158,13 +158,13 @@ Eigen::Matrix<T, 9, 3> actuator_to_joint_jacobian(const RigidManipulator& m, con
 }
 
 template <Real T>
-Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
-                      const Eigen::Matrix<T, 3, 1>& platform) {
+Vector9<T> joint_velocities(const RigidManipulator& m, const Vector9<T>& q,
+                            const Eigen::Matrix<T, 3, 1>& platform_rate) {
   Vector9<T> q_dot;
-  q_dot.template tail<3>() = platform;
+  q_dot.template tail<3>() = platform_rate;
   for (Index i = 0; i < 3; ++i) {
     const Limb<T> l = limb(m, q, i);
-    const Vec2<T> rate = platform.template head<2>() + perp(l.c) * platform(2);
+    const Vec2<T> rate = platform_rate.template head<2>() + perp(l.c) * platform_rate(2);
     q_dot(i) = l.e.dot(rate) / (l.proximal * perp(l.a).dot(l.e));
     q_dot(3 + i) = (perp(l.e).dot(rate) - l.proximal * l.a.dot(l.e) * q_dot(i)) / l.distal;
   }
@@ -174,9 +174,9 @@ Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
 template Matrix93d actuator_to_joint_jacobian(const RigidManipulator&, const Vector9d&);
 template Eigen::Matrix<Dual, 9, 3> actuator_to_joint_jacobian(const RigidManipulator&,
                                                               const Vector9<Dual>&);
-template Vector9d velocities(const RigidManipulator&, const Vector9d&, const Vector3d&);
-template Vector9<Dual> velocities(const RigidManipulator&, const Vector9<Dual>&,
-                                  const Eigen::Matrix<Dual, 3, 1>&);
+template Vector9d joint_velocities(const RigidManipulator&, const Vector9d&, const Vector3d&);
+template Vector9<Dual> joint_velocities(const RigidManipulator&, const Vector9<Dual>&,
+                                        const Eigen::Matrix<Dual, 3, 1>&);
 
 RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector3d& velocity) {
   RigidTerms terms;
@@ -184,7 +184,7 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
   terms.outcome = state_outcome(posture, m.geometry, pose);
   if (!terms.outcome.solved()) return terms;
   terms.q = coordinates(pose, posture);
-  terms.q_dot = velocities<double>(m, terms.q, velocity);
+  terms.q_dot = joint_velocities<double>(m, terms.q, velocity);
   const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
   terms.M.setZero();
   terms.C.setZero();
@@ -227,8 +227,8 @@ InverseDynamics inverse_dynamics(const RigidManipulator& m, const TrajectoryPoin
   if (!result.outcome.solved()) return result;
   result.q = terms.q;
   result.q_dot = terms.q_dot;
-  result.q_ddot = rates_of(velocities<Dual>(m, with_rates(terms.q, terms.q_dot),
-                                            with_rates(motion.velocity, motion.acceleration)));
+  result.q_ddot = rates_of(joint_velocities<Dual>(
+      m, with_rates(terms.q, terms.q_dot), with_rates(motion.velocity, motion.acceleration)));
   result.torque = terms.Mh * result.q_ddot.head<3>() + terms.Ch * result.q_dot.head<3>() +
                   terms.Nh - terms.W.bottomRows<3>().transpose() * wrench;
   result.kinetic_energy = result.potential_energy = 0;

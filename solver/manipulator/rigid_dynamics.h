@@ -89,8 +89,8 @@ template <Real T>
 /// Returns the velocities q. = W theta_a. of the nine coordinates from the velocity of the platform
 /// (xdot, ydot [m/s], phidot [rad/s]).
 template <Real T>
-[[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
-                                    const Eigen::Matrix<T, 3, 1>& platform);
+[[nodiscard]] Vector9<T> joint_velocities(const RigidManipulator& m, const Vector9<T>& q,
+                                          const Eigen::Matrix<T, 3, 1>& platform_rate);
 
 /// Inertia, position and Jacobian matrix of a body, with (xdot, ydot, omega) = J q. at its center.
 struct BodyTerms {

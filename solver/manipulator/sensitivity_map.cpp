@@ -84,8 +84,7 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
               std::vector<Polyline>& arcs) {
   Polyline arc;
   for (Index k = 0; k <= points && radius > 0; ++k) {
-    const double angle =
-        2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(points);
+    const auto angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(points);
     const Vector2d P = own.center + radius * Vector2d(std::cos(angle), std::sin(angle));
     if (reached_by_others(all, own, P)) {
       arc.push_back(P);

@@ -72,7 +72,7 @@ struct Counters {
   std::int64_t steps = 0;   ///< time steps or load steps, including rejected ones
   EffectCounts effects{};   ///< evaluations caused by each effect
 
-  void count(Effect effect, std::int64_t evaluations) {
+  void add(Effect effect, std::int64_t evaluations) {
     effects[static_cast<std::size_t>(effect)] += evaluations;
   }
   [[nodiscard]] std::int64_t evaluations(Effect effect) const {

@@ -64,7 +64,7 @@ void EquationMatrices::update(double time) {
   norm_K_ = matrix_norm(K_);
 }
 
-void EquationMatrices::load(double time, Eigen::VectorXd& f) const {
+void EquationMatrices::compute_load(double time, Eigen::VectorXd& f) const {
   if (equation_.load) {
     equation_.load(time, f);
   } else {

@@ -49,9 +49,9 @@ class EquationMatrices {
   explicit EquationMatrices(const EquationOfMotion& equation);
 
   void update(double time);
-  [[nodiscard]] bool constant() const { return !equation_.update; }
+  [[nodiscard]] bool is_constant() const { return !equation_.update; }
   [[nodiscard]] const std::vector<double>& breakpoints() const { return equation_.breakpoints; }
-  void load(double time, Eigen::VectorXd& f) const;
+  void compute_load(double time, Eigen::VectorXd& f) const;
 
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& C() const { return C_; }
@@ -88,7 +88,7 @@ struct LoadHistory {
   std::vector<double> time{0.0};    ///< [s]
   std::vector<double> factor{1.0};  ///< one for each time [-]
 
-  [[nodiscard]] bool constant() const { return time.size() == 1; }
+  [[nodiscard]] bool is_constant() const { return time.size() == 1; }
   /// Returns the times of jumps of the factor or its slope [s].
   [[nodiscard]] std::vector<double> breakpoint_times() const;
   /// Returns the load factor at time t [-].

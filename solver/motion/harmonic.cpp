@@ -71,21 +71,21 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
   damping_.shape = modes_.shape.leftCols(count);
 }
 
-void HarmonicSolver::compute_modes(Index damped) {
+void HarmonicSolver::compute_modes(Index damped_count) {
   Factorization K;
   K.compute(system_.K);
   ++counters_.factorizations;
   const ZeroEnergyModes free = find_zero_energy_modes(system_, K, counters_);
   held_ = free.count() == 0;
-  if (damped > 0) {
+  if (damped_count > 0) {
     const Counters before = counters_;
-    modes_ = solve_modes(system_, {std::max(damped, free.count()), EigenMethod::automatic});
+    modes_ = solve_modes(system_, {std::max(damped_count, free.count()), EigenMethod::automatic});
     counters_ = modes_.counters;
     counters_.factorizations += before.factorizations;
     counters_.solves += before.solves;
     outcome_ = modes_.outcome;
-    if (outcome_.solved() && modes_.frequency.size() < damped)
-      throw ModelError("there are " + std::to_string(damped) + " damping ratios but only " +
+    if (outcome_.solved() && modes_.frequency.size() < damped_count)
+      throw ModelError("there are " + std::to_string(damped_count) + " damping ratios but only " +
                        std::to_string(modes_.frequency.size()) + " modes");
   } else if (free.count() > 0 && free.all_found) {
     modes_.shape = free.basis;
@@ -127,12 +127,12 @@ double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) cons
   const Complex i(0, 1);
   RowBalance<Complex> rows(system_);
   rows.add_elastic_forces((1.0 + i * omega * damping_.rayleigh.stiffness) * (system_.T * q));
-  rows.add_inertia_forces(system_.T * acceleration(q, omega));
+  rows.add_inertia_forces(system_.T * equivalent_acceleration(q, omega));
   rows.add_load(-load_.cast<Complex>());
   return rows.backward_error();
 }
 
-VectorXcd HarmonicSolver::acceleration(const VectorXcd& q, double omega) const {
+VectorXcd HarmonicSolver::equivalent_acceleration(const VectorXcd& q, double omega) const {
   const Complex i(0, 1);
   const VectorXcd drag = damping_acceleration(damping_, system_.M, q.real()) +
                          i * damping_acceleration(damping_, system_.M, q.imag());
@@ -143,7 +143,7 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const double omega = kTwoPi * frequency;
   const VectorXcd u = system_.T * q;
   const Complex elastic = 1.0 / Complex(1, omega * damping_.rayleigh.stiffness);
-  const VectorXcd inertial = system_.T * (elastic * acceleration(q, omega));
+  const VectorXcd inertial = system_.T * (elastic * equivalent_acceleration(q, omega));
   const auto part = [&](const VectorXd& displacement, const VectorXd& acceleration, double load) {
     ElasticState state;
     state.u = displacement;
@@ -162,8 +162,7 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature =
       part(u.imag(), inertial.imag(), elastic.imag());
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
-  const ForceRoundoff roundoff =
-      force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
+  const auto roundoff = force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
   // Returns the complex stress amplitude of a force. If the section does not define the resistance
   // (area or section modulus), a force above round-off gives NaN.
   const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {

@@ -45,7 +45,7 @@ class HarmonicSolver {
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   /// Returns the natural frequencies of the modes with a modal damping ratio, in the order of
   /// `HarmonicDamping::modal_ratio` [Hz].
-  [[nodiscard]] Eigen::VectorXd frequencies() const {
+  [[nodiscard]] Eigen::VectorXd damped_mode_frequencies() const {
     return modes_.frequency.head(damping_.ratio.size());
   }
 
@@ -70,11 +70,12 @@ class HarmonicSolver {
  private:
   /// Returns the acceleration whose inertia forces are (i w C - w^2 M) q, without
   /// stiffness-proportional damping.
-  [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
+  [[nodiscard]] Eigen::VectorXcd equivalent_acceleration(const Eigen::VectorXcd& q,
+                                                         double omega) const;
 
-  /// Computes the first `damped` modes, which have a modal damping ratio, and the rigid modes of an
-  /// unsupported model.
-  void compute_modes(Index damped);
+  /// Computes the first `damped_count` modes, which have a modal damping ratio, and the rigid modes
+  /// of an unsupported model.
+  void compute_modes(Index damped_count);
 
   const System& system_;
   ViscousDamping damping_;

@@ -173,11 +173,11 @@ class TimeIntegration {
 
   TransientSummary run(const std::vector<Stop>& stops) {
     set_step_limit(std::ssize(stops));
-    stepper_.show();
+    stepper_.output_state();
     for (const Stop& stop : stops) {
       if (!advance(stop.time)) break;
       if (stop.breakpoint) stepper_.restart();
-      if (stop.sample && stop.time > options_.start) stepper_.show();
+      if (stop.sample && stop.time > options_.start) stepper_.output_state();
     }
     summary_.time = time_;
     summary_.counters.steps = summary_.accepted + summary_.rejected;
@@ -224,9 +224,9 @@ class TimeIntegration {
   }
 
   void accept() {
-    const bool inspect = step_.end >= next_look_ || step_.end >= options_.end;
-    if (inspect) next_look_ = step_.end + (options_.end - options_.start) / 200;
-    stepper_.accept(step_, inspect, summary_.evidence);
+    const bool check_motion = step_.end >= next_look_ || step_.end >= options_.end;
+    if (check_motion) next_look_ = step_.end + (options_.end - options_.start) / 200;
+    stepper_.accept(step_, check_motion, summary_.evidence);
     time_ = step_.end;
     control_.accept(step_, report_.error);
     ++summary_.accepted;

@@ -106,11 +106,11 @@ class Stepper {
   [[nodiscard]] virtual StepReport attempt(const Step& step) = 0;
   /// Accepts the last attempted step. If `inspect` is true, the equation of motion is also checked.
   /// The residuals are added to `evidence`.
-  virtual void accept(const Step& step, bool inspect, Evidence& evidence) = 0;
+  virtual void accept(const Step& step, bool check_motion, Evidence& evidence) = 0;
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
   /// Outputs the last accepted state, at the start and at a sample time.
-  virtual void show() {}
+  virtual void output_state() {}
   /// Describes the last attempt in words, for the reason of a failure.
   [[nodiscard]] virtual std::string describe(const StepReport& report) const = 0;
 };

@@ -171,8 +171,7 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
     for (Index i = 0; i < rest.cols(); ++i)
       held.col(i) = beside_modes(factorization.solve(rest.col(i)));
     counters.solves += rest.cols();
-    const DelayedFactors followed =
-        delayed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
+    const auto followed = delayed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
     response.q += held * followed.value;
     response.v += held * followed.rate;
     response.a += held * followed.acceleration;

@@ -37,7 +37,7 @@ void MotionEvidence::add_product(const SparseMatrix& A, const VectorXd& x) {
 
 void MotionEvidence::add_equilibrium(double time, double load_time, const VectorXd& q,
                                      const VectorXd& v, const VectorXd& A, double step) {
-  matrices_.load(load_time, f_);
+  matrices_.compute_load(load_time, f_);
   matrices_.update(time);
   if (scale_.size() == 0) set_coordinate_scale(step);
   sum_ = -f_;
@@ -66,7 +66,7 @@ void MotionEvidence::add_energy_balance(const TransientState& from, const Transi
   const double c = h * h * (s.beta - s.gamma / 2);
   double added = 0.5 * ((a * from.A + b * to.A).dot(from.Mv + to.Mv) -
                         ((h / 2) * (from.v + to.v) + c * (to.A - from.A)).dot(from.Ma + to.Ma));
-  if (!matrices_.constant())
+  if (!matrices_.is_constant())
     added += 0.5 * (from.q.dot(to.Kq) - to.q.dot(from.Kq) + from.v.dot(to.Mv) - to.v.dot(from.Mv));
   if (unbalanced_.size() > 0) {
     added -= 0.5 * (to.q - from.q).dot(unbalanced_);

@@ -49,7 +49,7 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
 Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation,
                                  EquationOfMotion& equation) {
   if (!system.load.isZero(0))
-    throw ModelError("a model with loads is not supported: loads would not turn with the axes");
+    throw ModelError("loads are not supported in a rotating frame: they would not rotate with it");
   const RotatingFrame unit{1, rotation.center, RotationAxis::normal};
   SparseMatrix K_1(system.K.rows(), system.K.cols());
   if (rotation.stiffening) {

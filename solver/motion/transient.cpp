@@ -155,7 +155,7 @@ class LinearStepper final : public Stepper {
 
   [[nodiscard]] Outcome begin(const Step& first, double stop) override;
   [[nodiscard]] StepReport attempt(const Step& step) override;
-  void accept(const Step& step, bool inspect, Evidence& evidence) override;
+  void accept(const Step& step, bool check_motion, Evidence& evidence) override;
   [[nodiscard]] std::string describe(const StepReport& report) const override {
     std::ostringstream text;
     if (report.status == Status::singular) {
@@ -227,13 +227,13 @@ Outcome LinearStepper::start() {
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
   matrices_.update(now_->time);
-  matrices_.load(now_->time, now_->f);
+  matrices_.compute_load(now_->time, now_->f);
   now_->Cv.noalias() = matrices_.C() * now_->v;
   now_->Kq.noalias() = matrices_.K() * now_->q;
   residual_ = now_->f - now_->Cv - now_->Kq;
   const bool is_start = !mass_factor_;
   if (is_start) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
-  if (is_start || !matrices_.constant()) {
+  if (is_start || !matrices_.is_constant()) {
     ++counters_.factorizations;
     mass_is_singular_ = !mass_factor_->factorize(matrices_.M()) ||
                         mass_factor_->smallest_pivot_to_diagonal() < kSingularMass;
@@ -241,7 +241,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   start_factor_ = mass_is_singular_ ? step_factor(first) : mass_factor_.get();
   if (!start_factor_) return {Status::singular, "the matrix M + C h + K h^2 is singular"};
   massless_balance_ =
-      mass_is_singular_ && matrices_.constant() && massless_.factor(matrices_, h, counters_);
+      mass_is_singular_ && matrices_.is_constant() && massless_.factor(matrices_, h, counters_);
   if (massless_balance_) {
     settle_massless(h);
   } else {
@@ -270,7 +270,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
 /// instantly. The work that is not stored as strain energy is dissipated.
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
-  matrices_.load(now_->time + h / 2, next_->f);
+  matrices_.compute_load(now_->time + h / 2, next_->f);
   massless_.equilibrate(*now_, (next_->f - now_->f) / (h / 2));
   now_->Cv.noalias() = matrices_.C() * now_->v;
   now_->Kq.noalias() = matrices_.K() * now_->q;
@@ -292,7 +292,7 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   for (int i = 0; i <= kPoints; ++i) {
     const double t = i == kPoints ? std::nextafter(end, begin)
                                   : begin + (end - begin) * static_cast<double>(i) / kPoints;
-    matrices_.load(t, next_->f);
+    matrices_.compute_load(t, next_->f);
     start_factor_->solve(next_->f, correction_);
     ++counters_.solves;
     next_->Ma.noalias() = matrices_.M() * correction_;
@@ -308,10 +308,10 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
 /// Returns the factors of the step matrix M + gamma' h C + beta' h^2 K, or null if it is singular.
 /// gamma' and beta' are the gains of velocity and position (`TimeScheme`), and h is the step size.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
-  const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
+  const auto index = matrices_.is_constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);
   auto& [size, factor] = factors_[index];
-  if (factor && matrices_.constant() && size == step.size) return factor.get();
+  if (factor && matrices_.is_constant() && size == step.size) return factor.get();
   if (!factor) factor = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
   size = step.size;
   const double c = scheme_.velocity_gain() * step.size;
@@ -328,7 +328,7 @@ StepReport LinearStepper::attempt(const Step& step) {
   if (now_->A_step != h) rescale_to_new_step(h / now_->A_step, now_->a, now_->A);
   now_->A_step = h;
   matrices_.update(step.end);
-  matrices_.load(load_time(step), next_->f);
+  matrices_.compute_load(load_time(step), next_->f);
   SparseLdlt* factor = step_factor(step);
   StepReport report;
   if (!factor) {
@@ -421,10 +421,10 @@ void LinearStepper::update_energies(double load_time) {
                   .dissipated = now_->shown.dissipated + 0.5 * way.dot(from.drag + to.drag)};
 }
 
-void LinearStepper::accept(const Step& step, bool inspect, Evidence& /*evidence*/) {
+void LinearStepper::accept(const Step& step, bool check_motion, Evidence& /*evidence*/) {
   update_energies(load_time(step));
   evidence_.add_energy_balance(*now_, *next_, step.size);
-  if (inspect || output_.covers(next_->time)) {
+  if (check_motion || output_.covers(next_->time)) {
     evidence_.add_scheme_residual(*now_, *next_, step.size);
     evidence_.add_equilibrium(next_->time, load_time(step), next_->q, next_->v, next_->a,
                               step.size);

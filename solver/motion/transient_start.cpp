@@ -51,12 +51,12 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
   for (int i = 4; i >= 0; --i) {
     const double time = options.start + i * gap;
     matrices.update(time);
-    if (i == 4 || !matrices.constant()) {
+    if (i == 4 || !matrices.is_constant()) {
       ++counters.factorizations;
       if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass)
         return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
     }
-    matrices.load(time, f);
+    matrices.compute_load(time, f);
     solve_refined(matrices.K(), factor, f, q_then, counters);
     v += (kSlope[static_cast<std::size_t>(i)] / gap) * q_then;
   }
@@ -141,27 +141,27 @@ void MasslessCoordinates::add_balancing_motion(const VectorXd& residual, VectorX
   x += share_ * (s_ - w_);
 }
 
-void MasslessCoordinates::equilibrate(TransientState& state, const VectorXd& rate) {
+void MasslessCoordinates::equilibrate(TransientState& state, const VectorXd& df_dt) {
   const SparseMatrix &C = matrices_->C(), &K = matrices_->K();
   const VectorXd residual = state.f - C * state.v - K * state.q;
   add_balancing_motion(residual, damped_ ? state.v : state.q);
-  if (!damped_) add_balancing_motion(rate - K * state.v, state.v);
+  if (!damped_) add_balancing_motion(df_dt - K * state.v, state.v);
   const VectorXd left = state.f - C * state.v - K * state.q;
   factor_.solve(left, state.a);
   factor_.solve(left - matrices_->M() * state.a, s_);
   counters_->solves += 2;
   state.a += s_;
-  accelerate(state, rate);
+  accelerate(state, df_dt);
 }
 
-void MasslessCoordinates::set_rates_from_positions(TransientState& state, const VectorXd& rate) {
-  if (!damped_) add_balancing_motion(rate - matrices_->K() * state.v, state.v);
-  accelerate(state, rate);
+void MasslessCoordinates::set_rates_from_positions(TransientState& state, const VectorXd& df_dt) {
+  if (!damped_) add_balancing_motion(df_dt - matrices_->K() * state.v, state.v);
+  accelerate(state, df_dt);
 }
 
-void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& rate) {
+void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& df_dt) {
   if (damped_) {
-    add_balancing_motion(rate - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
+    add_balancing_motion(df_dt - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
   } else {
     add_balancing_motion(-(matrices_->K() * state.a), state.a);
   }

@@ -44,16 +44,16 @@ class MasslessCoordinates {
   /// @returns false if a massless coordinate has neither stiffness nor damping.
   [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
   /// Moves massless coordinates to equilibrium at the start of a segment, and computes all
-  /// accelerations. `rate` is df/dt [SI/s].
-  void equilibrate(TransientState& state, const Eigen::VectorXd& rate);
+  /// accelerations. `df_dt` is df/dt [SI/s].
+  void equilibrate(TransientState& state, const Eigen::VectorXd& df_dt);
   /// Computes velocities and accelerations of massless coordinates with known positions.
-  void set_rates_from_positions(TransientState& state, const Eigen::VectorXd& rate);
+  void set_rates_from_positions(TransientState& state, const Eigen::VectorXd& df_dt);
 
  private:
   /// Adds a motion z of massless coordinates to x such that z^T (residual - B z) = 0. B is C for
   /// damped coordinates, and K otherwise.
   void add_balancing_motion(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
-  void accelerate(TransientState& state, const Eigen::VectorXd& rate);
+  void accelerate(TransientState& state, const Eigen::VectorXd& df_dt);
 
   const EquationMatrices* matrices_ = nullptr;
   Counters* counters_ = nullptr;

@@ -81,7 +81,7 @@ void test_claims(const fs::path& file) {
                                           load_case(catalogue().find_case("claims-audit"))};
   Document claims = Document::from_json(file.string(), read_json(file));
   claims.validate("claims");
-  (void)cases_of(claims, cases);
+  (void)cases_used_by(claims, cases);
   std::vector<Run> runs;
   for (const Case& some : cases) {
     Run run;

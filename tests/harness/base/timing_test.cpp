@@ -64,14 +64,14 @@ BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   for (const double t : baseline.cpu_s) timing.cpu_s.push_back(3 * t);
   timing.cpu_s[0] = 8;
   timing.cpu_s[2] = 0.1;
-  const RelativeTime ratio = relative_time(timing.cpu_s, baseline.cpu_s);
+  const RelativeTime ratio = time_ratio(timing.cpu_s, baseline.cpu_s);
   BOOST_TEST(ratio.median == 3);
   BOOST_TEST(ratio.low == 0.1);
   BOOST_TEST(ratio.high == 8);
   // With 15 repeats, the interval of the time ratio excludes the two outermost values on each side.
   for (int i = 0; i < 8; ++i) baseline.cpu_s.push_back(1), timing.cpu_s.push_back(3);
-  BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).low == 3);
-  BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).high == 3);
+  BOOST_TEST(time_ratio(timing.cpu_s, baseline.cpu_s).low == 3);
+  BOOST_TEST(time_ratio(timing.cpu_s, baseline.cpu_s).high == 3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

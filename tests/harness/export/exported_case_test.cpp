@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
   const auto message = [&](const ExportChoice& choice) {
     return input_error_message([&] { (void)export_case(given, choice); });
   };
-  BOOST_TEST(contains(message({"base", "elements", count}), "expected a level from 0 to "));
+  BOOST_TEST(contains(message({"base", "elements", count}), "expected a sweep level from 0 to "));
   BOOST_TEST(contains(message({"base", "steps", 0}), "expected the name of a sweep (got 'steps'"));
 }
 

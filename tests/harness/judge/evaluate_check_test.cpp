@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(wrong_length_is_an_error) {
   Bench shorter;
   shorter.quantities["frequency_Hz"].values.pop_back();
   BOOST_TEST(shorter.verdict() == "error");
-  BOOST_TEST(contains(shorter.message, "the lengths differ: 2 computed, 3 expected"));
+  BOOST_TEST(contains(shorter.message, "the numbers of values differ: 2 computed, 3 expected"));
   Bench longer;
   longer.quantities["frequency_Hz"].values.push_back(40);
   BOOST_TEST(longer.verdict() == "error");

@@ -46,7 +46,7 @@ void check_fields(const std::string& definition, const Names& read_alone = {}) {
   const Json& rule = schema()["definitions"][definition];
   FieldList list;
   T part{};
-  fields(list, part);
+  visit_fields(list, part);
   BOOST_TEST((rule.value("required", Names()) == list.required_keys), definition);
   Names stated;
   for (const auto& property : rule["properties"].items()) stated.insert(property.key());

@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(every_quantity_is_defined_and_every_definition_used) {
   for (const Json& json : further_cases()) record(testing::document_of(json), recorded);
   Recorded defined;
   for (const results::QuantityDefinition& one : results::quantity_definitions())
-    for (const std::string& analysis : one.analyses) defined[analysis].insert(one.head());
+    for (const std::string& analysis : one.analyses) defined[analysis].insert(one.base_name());
   for (const auto& side : {recorded, defined})
     for (const auto& item : side) BOOST_TEST_CONTEXT(item.first)
   BOOST_TEST(defined[item.first] == recorded[item.first], boost::test_tools::per_element());
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(quantities_are_defined_once_and_with_a_meaning) {
   for (const results::QuantityDefinition& one : results::quantity_definitions()) {
     BOOST_TEST(!one.meaning.empty(), one.name);
     for (const std::string& analysis : one.analyses)
-      BOOST_TEST(seen.emplace(analysis, one.head()).second, analysis << " " << one.name);
+      BOOST_TEST(seen.emplace(analysis, one.base_name()).second, analysis << " " << one.name);
   }
 }
 

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(errors_of_modes_hold_the_converged_values) {
     const results::ErrorEstimate& error = found.of("frequency_Hz");
     for (std::size_t mode = 0; mode < converged.size(); ++mode) {
       const double computed = found.values("frequency_Hz")[mode];
-      BOOST_TEST(std::abs(computed - converged[mode]) <= *error.half_width(mode, computed),
+      BOOST_TEST(std::abs(computed - converged[mode]) <= *error.error_half_width(mode, computed),
                  "mode " << mode << ": " << computed << " against " << converged[mode]);
     }
   }
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(odd_mesh_has_a_finer_companion) {
   for (std::size_t mode = 0; mode < 3; ++mode) {
     const double computed = found.values("frequency_Hz")[mode];
     BOOST_TEST(std::abs(computed - converged[mode]) <=
-               *found.of("frequency_Hz").half_width(mode, computed));
+               *found.of("frequency_Hz").error_half_width(mode, computed));
   }
 }
 
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
     if (step_s < 0) json["analysis"]["transient"]["error_control"]["relative"] = 10;
     const Estimated found = estimated(json);
     const std::vector<double>& computed = found.values("displacement_y_m:B");
-    const double allowed = *found.of("displacement_y_m:B").half_width(0, 0);
+    const double allowed = *found.of("displacement_y_m:B").error_half_width(0, 0);
     for (std::size_t i = 0; i < truth.size(); ++i)
       BOOST_TEST_REQUIRE(std::abs(computed[i] - truth[i]) <= allowed,
                          "step " << step_s << " s, sample " << i);
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
   const AccuracySearch search = search_accuracy(document_of(json), {1e-3, {name}, 60}, {});
   json["analysis"]["elastodynamics"] = {{"initial_state", "quasi-static"}, {"step_s", 2e-5}};
   const std::vector<double> truth = estimated(with_links(json, 16)).values(name);
-  const double allowed = *limited.of(name).half_width(0, 0), size = std::ranges::max(truth);
+  const double allowed = *limited.of(name).error_half_width(0, 0), size = std::ranges::max(truth);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     BOOST_TEST(std::abs(limited.values(name)[i] - truth[i]) <= allowed);
     BOOST_TEST(std::abs(search.result.quantities.at(name).values[i] - truth[i]) <= 1e-3 * size);

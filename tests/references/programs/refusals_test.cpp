@@ -55,7 +55,7 @@ const Refusal kRefusals[] = {
 BOOST_DATA_TEST_CASE(invalid_arguments_are_refused, kRefusals, refusal) {
   std::string message = "accepted";
   try {
-    static_cast<void>(derive(refusal.program, Json::parse(refusal.arguments)));
+    static_cast<void>(derive_values(refusal.program, Json::parse(refusal.arguments)));
   } catch (const DerivationError& error) {
     message = error.what();
   }

@@ -249,8 +249,8 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
 
 BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {
   const std::vector<std::vector<int>> line = {{0, 1, 2, 3}};
-  BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
-  BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);
+  BOOST_TEST(polyline_points(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
+  BOOST_TEST(polyline_points(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);
 }
 
 BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {

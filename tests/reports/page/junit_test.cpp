@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(changed_discrepancy_is_a_failure_of_its_own_type) {
   Results results = sample_results();
   for (Run& run : results.runs)
     for (Check& check : run.checks)
-      if (check.known_discrepancy()) check.verdict = Verdict::fail;
+      if (check.is_known_discrepancy()) check.verdict = Verdict::fail;
   BOOST_TEST(occurrences(junit_of(results), "<failure type=\"trammel.changed-discrepancy\"") > 0U);
 }
 

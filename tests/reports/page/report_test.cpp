@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   for (const Run& run : sample_results().runs)
     for (const trammel::reports::CheckGroup& group : trammel::reports::group_checks(run))
       if (group.worst().verdict == Verdict::pass)
-        ++(group.worst().known_discrepancy() ? known : pass);
+        ++(group.worst().is_known_discrepancy() ? known : pass);
   BOOST_TEST(shows("<strong>" + std::to_string(pass) + "</strong> passes"));
   BOOST_TEST(shows("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
   BOOST_TEST(shows("<strong>1</strong> not judged"));

@@ -30,10 +30,10 @@ BOOST_AUTO_TEST_CASE(nan_infinity_and_missing_have_no_digits) {
 }
 
 BOOST_AUTO_TEST_CASE(relative_differences_are_percent_unless_small) {
-  BOOST_TEST(relative(0.2611, 3, true) == "+26.1\u202f%");
-  BOOST_TEST(relative(-0.2, 3, true) == "\u221220\u202f%");
-  BOOST_TEST(relative(2.1e-9, 3, true) == "+2.1\u202f×\u202f10⁻⁹");
-  BOOST_TEST(relative(0, 3, true) == "0");
+  BOOST_TEST(percent_text(0.2611, 3, true) == "+26.1\u202f%");
+  BOOST_TEST(percent_text(-0.2, 3, true) == "\u221220\u202f%");
+  BOOST_TEST(percent_text(2.1e-9, 3, true) == "+2.1\u202f×\u202f10⁻⁹");
+  BOOST_TEST(percent_text(0, 3, true) == "0");
 }
 
 BOOST_AUTO_TEST_CASE(shown_digits_distinguish_two_numbers) {

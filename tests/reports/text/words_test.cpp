@@ -7,7 +7,7 @@ BOOST_AUTO_TEST_SUITE(words)
 using namespace trammel::reports;
 
 BOOST_AUTO_TEST_CASE(names_read_as_words) {
-  BOOST_TEST(spaced("axial-flexibility_of") == "axial flexibility of");
+  BOOST_TEST(separators_to_spaces("axial-flexibility_of") == "axial flexibility of");
   BOOST_TEST(capitalized("modes") == "Modes");
   BOOST_TEST(capitalized("") == "");
   BOOST_TEST(words_in("case  variant ") == (std::vector<std::string>{"case", "variant"}),

@@ -37,12 +37,12 @@ Outcome outcome_of(const std::function<void(State&)>& change) {
   State state;
   BOOST_TEST_REQUIRE(integrate(system, state, options_for(0.1)).outcome.solved());
   change(state);
-  VectorXd force = VectorXd::Zero(system.coordinates());
+  VectorXd force = VectorXd::Zero(system.coordinate_count());
   system.force_residual(state, force);
   MotionResiduals residuals(system);
   Evidence evidence;
-  evidence.add(Residual::equation_of_motion, residuals.equation_of_motion(state, force));
-  const ConstraintGaps gaps = residuals.constraints(state);
+  evidence.add(Residual::equation_of_motion, residuals.motion_residual(state, force));
+  const ConstraintGaps gaps = residuals.largest_gaps(state);
   evidence.add(Residual::constraints, std::max(gaps.relative_position, 0.01 * gaps.relative_rate));
   return outcome_by_evidence({}, evidence, {Residual::equation_of_motion, Residual::constraints});
 }
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(wrong_member_forces_are_out_of_balance) {
   State& state = path.points.back().state;
   const auto residual = [&] {
     MemberBalance balance;
-    balance.add(system, state);
+    balance.add_state(system, state);
     return balance.residual();
   };
   state.lambda[0] *= 1 + 1e-6;

@@ -23,7 +23,7 @@ struct Solved {
     RowBalance<double> rows(system);
     rows.add_elastic_forces(state.u);
     rows.add_load(-system.load);
-    return trammel::solver::largest_relative_imbalance(system, state, solution, rows.terms());
+    return trammel::solver::largest_relative_imbalance(system, state, solution, rows.magnitudes());
   }
 };
 

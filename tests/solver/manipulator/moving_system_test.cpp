@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
       if (design.proximal[0].axially_flexible) {
         BOOST_TEST(difference(walk.moving.K(), built.K) < 1e-13);
         BOOST_TEST(difference(walk.moving.M(), built.M) < 1e-13);
-        BOOST_TEST(difference(walk.moving.load(), built.f) < 1e-12);
+        BOOST_TEST(difference(walk.moving.external_load(), built.f) < 1e-12);
         continue;
       }
       // The moved system and the system that is assembled at this pose may have eliminated
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
   MovingSystem& moving = walk.moving;
   const NominalMotion before = moving.motion();
   const VectorXd force = VectorXd::LinSpaced(moving.constraints().T.rows(), -1, 2);
-  const VectorXd multipliers = moving.constraints().multipliers(force);
+  const VectorXd multipliers = moving.constraints().lagrange_multipliers(force);
   int refused = 0;
   for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
     const auto& ends = moving.start().model.members[member].nodes;
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
       motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
       refused += moving.move_to(motion).solved() ? 0 : 1;
       BOOST_TEST_REQUIRE(moving.move_to(before).solved());
-      BOOST_TEST((moving.constraints().multipliers(force) - multipliers).norm() <
+      BOOST_TEST((moving.constraints().lagrange_multipliers(force) - multipliers).norm() <
                  1e-10 * multipliers.norm());
     }
   }

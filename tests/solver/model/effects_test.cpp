@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(applicable_effects_follow_the_parts_of_a_model) {
 
 BOOST_AUTO_TEST_CASE(counters_add_up) {
   Counters all{.element_evaluations = 1, .factorizations = 2, .solves = 3, .steps = 4};
-  all.count(Effect::damping, 5);
+  all.add(Effect::damping, 5);
   all += all;
   BOOST_TEST(all.element_evaluations == 2);
   BOOST_TEST(all.factorizations == 4);

@@ -24,12 +24,12 @@ inline Json beam_model(const char* patch) {
 }
 
 inline std::vector<double> frequencies(const Json& model, int count) {
-  return derive("frame-frequencies", {{"model", model}, {"count", count}});
+  return derive_values("frame-frequencies", {{"model", model}, {"count", count}});
 }
 
 /// Runs a program with arguments as JSON text. @returns its values
 inline std::vector<double> run(const char* program, const char* arguments) {
-  return derive(program, Json::parse(arguments));
+  return derive_values(program, Json::parse(arguments));
 }
 
 inline void check_equal(const std::vector<double>& a, const std::vector<double>& b,
