@@ -96,8 +96,7 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
                          "amplified as much as displacements"});
 }
 
-void warn_of_wave_length(const solver::System& system, double frequency,
-                         std::vector<Warning>& warnings) {
+double largest_wave_number(const solver::System& system, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
   double largest = 0;
   for (const solver::FrameElement& e : system.mesh.frame) {
@@ -105,6 +104,12 @@ void warn_of_wave_length(const solver::System& system, double frequency,
     const double beta = std::pow(omega * omega * e.section.mass_per_length / e.section.EI, 0.25);
     largest = std::max(largest, beta * e.length);
   }
+  return largest;
+}
+
+void warn_of_wave_length(const solver::System& system, double frequency,
+                         std::vector<Warning>& warnings) {
+  const double largest = largest_wave_number(system, frequency);
   if (!(largest > kMaxWaveNumber)) return;
   add_warning(warnings, {"the largest dimensionless wave number of an element", largest, "",
                          "above pi / 2 there are fewer than two elements per half wave of the "

@@ -234,9 +234,9 @@ class Search {
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
     }
-    current_ = finer->document;
     ErrorBands two_levels =
         error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
+    current_ = finer->document;
     bands_[source] = narrowed(two_levels, two_levels_[source], finer->ratio);
     two_levels_[source] = std::move(two_levels);
     if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);

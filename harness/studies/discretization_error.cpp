@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "harness/studies/mode_match.h"
 
 namespace trammel::harness {
@@ -160,6 +162,13 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
+/// Returns the highest frequency [Hz] with at least two elements per half wave of bending. The wave
+/// number of an element is proportional to the square root of the frequency.
+double resolved_frequency(const Document& coarse) {
+  const solver::Model model = model_at_path_start(read_case_model(coarse));
+  return std::pow(kMaxWaveNumber / largest_wave_number(solver::assemble(model), 1.0), 2);
+}
+
 /// Returns true if a quantity converges under refinement. Coordinates, counts and measures of
 /// accuracy do not converge.
 bool is_estimated(const std::string& name) {
@@ -272,6 +281,11 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
   const ErrorScales scales(document, result);
   ErrorBands bands;
   const bool by_shape = has_shapes(result) && has_shapes(other);
+  // A finer companion has half the element size of the coarse mesh.
+  const double resolved =
+      source == ErrorSource::mesh && discretized_analysis(document) == "modes"
+          ? resolved_frequency(document) / (companion.finer ? std::pow(companion.ratio, 2) : 1)
+          : std::numeric_limits<double>::infinity();
   for (const auto& [name, quantity] : result.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;
@@ -291,14 +305,15 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
           scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
       const bool is_nodal = !order && difference <= 100 * roundoff;
-      const bool is_large = difference > kLargeDifference * std::max(std::abs(values[i]), scale);
-      const double p = is_large ? std::min(order.value_or(2), 2.0) : order.value_or(2);
+      const bool is_coarse = difference > kLargeDifference * std::max(std::abs(values[i]), scale) ||
+                             (name == "frequency_Hz" && values[i] > resolved);
+      const double p = is_coarse ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
       band.half_width[i] = roundoff + (is_nodal ? difference
                                                 : kSafetyFactor * difference *
                                                       (companion.finer ? power : 1) / (power - 1));
       if (!is_nodal) band.order = p;
-      band.asymptotic = band.asymptotic && !is_large;
+      band.asymptotic = band.asymptotic && !is_coarse;
     }
     bands.emplace(name, std::move(band));
   }

@@ -54,9 +54,9 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// Returns error bands from the results on two refinement levels. The band about the fine value has
 /// the half width U = 3 |fine - coarse| / (r^p - 1), with the ratio r of element sizes or steps and
 /// the order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p
-/// times as wide. If the difference exceeds 10 % of the value, p is at most 2. If the values are
-/// exact in theory, U is the difference plus round-off. Modes are matched by their shapes if both
-/// results have them.
+/// times as wide. p is at most 2 if the difference exceeds 10 % of the value, or if a mode has fewer
+/// than two coarse elements per half wave of bending. If the values are exact in theory, U is the
+/// difference plus round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 
