@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFigures = 12;  ///< largest number of figures of a compared run
 
-std::string percent_text(const Number& percent) {
+std::string signed_percent(const Number& percent) {
   return percent ? with_sign(*percent, 3) + "\u202f%" : "";
 }
 
@@ -82,7 +82,7 @@ TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) 
       if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
         text += " (mode " + numbers_text(found.modes[s]) + ")";
       row.push_back(text);
-      if (s > 0) row.push_back(percent_text(found.percent[s]));
+      if (s > 0) row.push_back(signed_percent(found.percent[s]));
     }
     table.rows.push_back(row);
   }
@@ -100,7 +100,7 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
       const bool zero = value && std::abs(*value) <= number.noise;
       row.push_back(zero ? "0" : text_or_dash(value, 6));
       if (!zero && number.errors[s]) row.back() += " ± " + significant(*number.errors[s], 2);
-      if (s > 0) row.push_back(percent_text(number.percent[s]));
+      if (s > 0) row.push_back(signed_percent(number.percent[s]));
     }
     table.rows.push_back(row);
   }
