@@ -8,7 +8,7 @@
 #include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
-/// Functions that plan figures. The figures are numbered and drawn later.
+/// Functions that plan figures. The figures are drawn later.
 namespace trammel::reports {
 
 /// Figure of published values and of the computed values of a run with their uncertainty. Empty if

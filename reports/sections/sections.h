@@ -29,7 +29,7 @@ namespace trammel::reports {
 /// Returns the data of a drawn figure for the template figure.mustache.
 [[nodiscard]] Data figure_data(const Figure& figure);
 
-/// Figures of studies of many cases. `plan_studies` neither numbers nor draws the figures.
+/// Figures of studies of many cases. `plan_studies` does not draw the figures.
 struct StudyFigures {
   std::vector<Figure> cost;  ///< one figure for each cost study of the results
   std::vector<Figure> effects, history;
@@ -93,8 +93,8 @@ struct StudyFigures {
 [[nodiscard]] Data front_page_section(const Results& results, const std::vector<Family>& families,
                                       const StudyFigures& figures);
 
-/// Returns the tables of the checks of a case. If there are many checks, one table has the worst
-/// value of each check, and a folded table has all checks.
+/// Returns the tables of the checks of a case: one with the worst values of the most severe checks,
+/// and one with all checks.
 [[nodiscard]] Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                      const Results& results);
 

@@ -293,7 +293,6 @@ std::pair<const CaseInfo*, const Gallery*> find_main_comparison(
 void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   Figure linked = figure;
   linked.is_linked = true;
-  linked.number = static_cast<int>(figures.list_value().size()) + 1;
   Data data = figure_data(linked);
   data.set("more", link);
   figures.push_back(data);
@@ -304,11 +303,8 @@ Data manipulator_figures(const std::vector<Family>& families) {
   Data figures = list();
   const auto [info, gallery] = find_main_comparison(families);
   if (info == nullptr) return figures;
-  for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
-    const auto figure = std::ranges::find_if(
-        gallery->shown, [&](const Figure& shown) { return shown.id.ends_with(end); });
-    if (figure != gallery->shown.end()) add_figure(*figure, case_link(info->id), figures);
-  }
+  for (const std::vector<Figure>* part : {&gallery->sketch, &gallery->shown})
+    for (const Figure& figure : *part) add_figure(figure, case_link(info->id), figures);
   return figures;
 }
 
