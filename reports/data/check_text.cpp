@@ -75,6 +75,11 @@ std::string bound_text(const Check& check) {
 
 }  // namespace
 
+bool is_numeric(const Check& check) {
+  return check.quantity != "status" && !check.known_discrepancy() &&
+         std::isfinite(share_of_tolerance(check));
+}
+
 std::string check_title(const Check& check) {
   return check.title.empty() ? check.name : check.title;
 }

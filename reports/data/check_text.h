@@ -73,6 +73,9 @@ void add(Counts& counts, const Run& run);
 /// "−3 × 10⁻⁸ N", or as a ratio "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
+/// Returns whether a check compares a number with a tolerance: no status, no known discrepancy.
+[[nodiscard]] bool is_numeric(const Check& check);
+
 /// Returns the comparison of the difference of a check with its validation uncertainty, or null.
 [[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
 

@@ -37,14 +37,12 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     if (auto shape = shapes_figure(info, *run); shape && ++variants <= kMaxDrawnVariants)
       shapes.push_back(*shape);
   if (variants > kMaxDrawnVariants)
-    gallery.problems.push_back("The shapes of the first " + std::to_string(kMaxDrawnVariants) +
-                               " variants are drawn; those of " +
-                               std::to_string(variants - kMaxDrawnVariants) +
-                               " more are in the run store.");
+    gallery.problems.push_back("Shapes are drawn for " + std::to_string(kMaxDrawnVariants) +
+                               " of " + count(variants, "variant") +
+                               "; the run store contains all shapes.");
   if (motions > 1)
-    gallery.problems.push_back("The motion of the first variant is drawn; those of " +
-                               std::to_string(motions - 1) +
-                               " more are in the run store, and 'run --vtk' writes them.");
+    gallery.problems.push_back("The motion of one of " + count(motions, "variant") +
+                               " is drawn; 'run --vtk' writes the others.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;

@@ -1,7 +1,5 @@
 #include "reports/page/report.h"
 
-#include <algorithm>
-#include <iterator>
 #include <set>
 
 #include "harness/results/unfinished_folder.h"
@@ -58,7 +56,7 @@ fs::path write_report(const Results& results, const fs::path& out) {
     std::vector<Family> families = plan_family_figures(results);
     StudyFigures studies = plan_studies(results);
     std::vector<Figure*> figures = all_figures(families);
-    std::ranges::copy(studies.all(), std::back_inserter(figures));
+    for (Figure* figure : studies.all()) figures.push_back(figure);
     make_ids_unique(figures);
     // If the results include stored runs, unchanged drawings of the earlier report are reused.
     const Environment& from = results.environment;

@@ -54,7 +54,6 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"name", check_title(check)},
                  {"quantity", quantity_text(check)},
                  {"meaning", definition == nullptr ? "" : definition->meaning},
-                 {"role", check.role},
                  {"shared", shared},
                  {"range", range_text(check)},
                  {"why", check.why},
