@@ -75,6 +75,11 @@ std::string bound_text(const Check& check) {
 
 }  // namespace
 
+bool is_numeric(const Check& check) {
+  return check.quantity != "status" && !check.is_known_discrepancy() &&
+         std::isfinite(difference_over_tolerance(check));
+}
+
 std::string check_title(const Check& check) {
   return check.title.empty() ? check.name : check.title;
 }
@@ -106,10 +111,12 @@ std::string difference_text(const Check& check, double difference) {
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
     // A value with only an upper limit is shown as its fraction of the limit: "12 % of limit". A
-    // value with a lower limit is shown as "within" or "outside" its limits.
+    // value with a lower limit is shown as "within" or "outside" its limits. The limits of a known
+    // discrepancy are recorded values.
     const double used = difference_over_tolerance(check);
     if (!std::isfinite(used)) return "–";
-    if (check.tolerance->low) return used <= 1 ? "within" : "outside";
+    if (check.tolerance->low && used > 1) return "outside";
+    if (check.tolerance->low) return check.is_known_discrepancy() ? "as recorded" : "within";
     return percent_text(used, 2, false) + " of limit";
   }
   return check.difference ? difference_text(check, *check.difference) : "–";

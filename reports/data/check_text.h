@@ -74,6 +74,10 @@ void add_check_counts(Counts& counts, const Run& run);
 /// "−3 × 10⁻⁸ N", or as a ratio "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
+/// Returns true if a check compares a number with a tolerance. Statuses and known discrepancies do
+/// not.
+[[nodiscard]] bool is_numeric(const Check& check);
+
 /// Returns the comparison of the difference of a check with its validation uncertainty, or null.
 [[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
 

@@ -19,7 +19,6 @@ struct Figure {
   Table data;
   std::string moving = {};  ///< JSON of an animation; empty if the figure is not animated
   bool is_linked = false;   ///< the page loads the drawing when it comes into view
-  int number = 0;           ///< number on the page, from 1
   std::string svg = {};     ///< the drawing as an element with unique ids
 };
 

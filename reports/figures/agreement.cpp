@@ -90,7 +90,8 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
   script.plot();
   const std::string caption =
       "Printed values, and computed values with their expanded uncertainty (discretization and "
-      "inputs). The computed values differ by " +
+      "inputs). The computed values differ from the printed ones (" +
+      titles.front().substr(0, titles.front().find_first_of(":,")) + ") by " +
       low_to_high(percent_text(differences.low, 3, true), percent_text(differences.high, 3, true)) +
       ".";
   return Figure{.id = slug(info.id + "-" + run.variant + "-agreement"),

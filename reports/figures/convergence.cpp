@@ -229,7 +229,6 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
     harness::find_or_add(groups, same, Sweeps{}).push_back(&c);
   }
   std::vector<Figure> figures;
-  figures.reserve(groups.size());
   for (const Sweeps& sweeps : groups) figures.push_back(figure_of(info, run, sweeps));
   return figures;
 }

@@ -8,7 +8,7 @@
 #include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
-/// Functions that plan figures. The figures are numbered and drawn later.
+/// Functions that plan figures. The figures are drawn later.
 namespace trammel::reports {
 
 /// Figure of published values and of the computed values of a run with their uncertainty. Empty if
@@ -64,10 +64,11 @@ namespace trammel::reports {
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
 /// Figure of the differences of all checks of a family, divided by their tolerances. Known
-/// discrepancies are omitted.
-/// @param titles  titles of the cases, by case id
+/// discrepancies and statuses are omitted.
+/// @param titles        titles of the cases, by case id
+/// @param largest_only  one point for each case, without labels
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,
-    const std::vector<const Run*>& runs);
+    const std::vector<const Run*>& runs, bool largest_only = false);
 
 }  // namespace trammel::reports

@@ -15,52 +15,50 @@ namespace {
 
 constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of figures of shapes of a case
 
-/// Plans the figures of a case. The page shows the geometry, and the shapes and convergence of the
-/// first run that has them. The shapes and convergence of further runs are in folded parts of the
-/// page.
+/// Plans the figures of a case. The page shows the sketch and three more figures: the first of the
+/// values (compared values, effects, or a request of the case), the motion or the shapes of the
+/// first run that has them, and the first refinement study. Further figures are folded.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
       std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
   if (drawn != runs.end())
-    if (auto figure = mechanism_figure(info, **drawn)) gallery.shown.push_back(*figure);
-  if (auto figure = agreement_figure(info, results, *runs.front()))
-    gallery.shown.push_back(*figure);
-  for (const Run* run : runs)
-    if (auto figure = effects_figure(info, results, *run)) gallery.shown.push_back(*figure);
-  std::size_t variants = 0;
-  for (const Run* run : runs)
-    if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
-      (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
-  if (variants > kMaxDrawnVariants)
-    gallery.problems.push_back("The shapes of the first " + std::to_string(kMaxDrawnVariants) +
-                               " variants are drawn; those of " +
-                               std::to_string(variants - kMaxDrawnVariants) +
-                               " more are in the run store.");
-  std::size_t motions = 0;
-  for (const Run* run : runs)
+    if (auto figure = mechanism_figure(info, **drawn)) gallery.sketch.push_back(*figure);
+  std::vector<Figure> values, shapes, meshes;
+  if (auto figure = agreement_figure(info, results, *runs.front())) values.push_back(*figure);
+  std::size_t motions = 0, variants = 0;
+  for (const Run* run : runs) {
+    if (auto figure = effects_figure(info, results, *run)) values.push_back(*figure);
     if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
-      gallery.shown.push_back(*motion);
+      shapes.push_back(*motion);
+  }
+  for (const Run* run : runs)
+    if (auto shape = shapes_figure(info, *run); shape && ++variants <= kMaxDrawnVariants)
+      shapes.push_back(*shape);
+  if (variants > kMaxDrawnVariants)
+    gallery.problems.push_back("Shapes are drawn for " + std::to_string(kMaxDrawnVariants) +
+                               " of " + count(variants, "variant") +
+                               "; the run store contains all shapes.");
   if (motions > 1)
-    gallery.problems.push_back("The motion of the first variant is drawn; those of " +
-                               std::to_string(motions - 1) +
-                               " more are in the run store, and 'run --vtk' writes them.");
+    gallery.problems.push_back("The motion of one of " + count(motions, "variant") +
+                               " is drawn; 'run --vtk' writes the others.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;
     if (auto figure = draw(info, request, runs, problem))
-      gallery.shown.push_back(*figure);
+      values.push_back(*figure);
     else
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
   }
-  bool first = true;
-  for (const Run* run : runs) {
-    std::vector<Figure> figures = convergence_figures(info, *run);
-    std::ranges::move(figures, std::back_inserter(first ? gallery.shown : gallery.folded));
-    first = first && figures.empty();
-  }
-  for (Figure& figure : gallery.folded) figure.is_linked = true;
+  for (const Run* run : runs)
+    std::ranges::move(convergence_figures(info, *run), std::back_inserter(meshes));
+  for (std::vector<Figure>* figures : {&values, &shapes, &meshes})
+    for (Figure& figure : *figures) {
+      const bool is_first = &figure == &figures->front();
+      figure.is_linked = !is_first && figures != &values;
+      (is_first ? gallery.shown : gallery.folded).push_back(std::move(figure));
+    }
   return gallery;
 }
 
@@ -130,34 +128,28 @@ std::vector<Family> plan_family_figures(const Results& results) {
   return families;
 }
 
-std::vector<std::vector<Figure*>> figures_by_page(std::vector<Family>& families) {
-  std::vector<std::vector<Figure*>> pages;
+std::vector<Figure*> all_figures(std::vector<Family>& families) {
+  std::vector<Figure*> figures;
   const auto add = [&](std::vector<Figure>& from) {
-    for (Figure& figure : from) pages.back().push_back(&figure);
+    for (Figure& figure : from) figures.push_back(&figure);
   };
   for (Family& family : families) {
-    pages.emplace_back();
     add(family.overview);
     for (const CaseInfo* info : family.cases) {
       Gallery& gallery = family.galleries.at(info->id);
-      pages.emplace_back();
-      add(gallery.shown);
-      add(gallery.folded);
+      for (std::vector<Figure>* part : {&gallery.sketch, &gallery.shown, &gallery.folded})
+        add(*part);
     }
   }
-  return pages;
+  return figures;
 }
 
-void number_figures(const std::vector<std::vector<Figure*>>& pages) {
+void make_ids_unique(const std::vector<Figure*>& figures) {
   std::set<std::string> used;
-  for (const std::vector<Figure*>& figures : pages) {
-    int number = 0;
-    for (Figure* figure : figures) {
-      const std::string wanted = figure->id;
-      for (int copy = 2; !used.insert(figure->id).second; ++copy)
-        figure->id = wanted + "-" + std::to_string(copy);
-      figure->number = ++number;
-    }
+  for (Figure* figure : figures) {
+    const std::string wanted = figure->id;
+    for (int copy = 2; !used.insert(figure->id).second; ++copy)
+      figure->id = wanted + "-" + std::to_string(copy);
   }
 }
 

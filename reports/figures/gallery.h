@@ -9,10 +9,10 @@
 
 namespace trammel::reports {
 
-/// Figures of a case that its page shows openly or in folded parts, and reasons for figures that
-/// cannot be drawn.
+/// Figures of a case: the sketch of the model (at most one), figures that its page shows openly or
+/// in folded parts, and reasons for figures that cannot be drawn.
 struct Gallery {
-  std::vector<Figure> shown, folded;
+  std::vector<Figure> sketch, shown, folded;
   std::vector<std::string> problems;
 };
 
@@ -31,13 +31,13 @@ struct Family {
   [[nodiscard]] std::vector<const Run*> runs_of(const std::string& case_id) const;
 };
 
-/// Returns all families with the cases that were run. The figures are not yet numbered or drawn.
+/// Returns all families with the cases that were run. The figures are not yet drawn.
 [[nodiscard]] std::vector<Family> plan_family_figures(const Results& results);
 
-/// Returns the figures of the page of each family and of each case.
-[[nodiscard]] std::vector<std::vector<Figure*>> figures_by_page(std::vector<Family>& families);
+/// Returns the figures of all families and of their cases.
+[[nodiscard]] std::vector<Figure*> all_figures(std::vector<Family>& families);
 
-/// Numbers the figures of each page from 1, and makes their ids unique over all pages.
-void number_figures(const std::vector<std::vector<Figure*>>& pages);
+/// Makes the ids of all figures of a report unique.
+void make_ids_unique(const std::vector<Figure*>& figures);
 
 }  // namespace trammel::reports

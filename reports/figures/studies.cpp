@@ -60,7 +60,7 @@ std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& tim
 
 std::optional<Figure> effects_figure(const CaseInfo& info, const Results& results, const Run& run) {
   PlotScript::Rows kept, omitted, cumulative;
-  std::string tics, needed, others;
+  std::string tics, on, off;
   double y = 0, largest = 1e-2;
   Table table{words_in("effect state change_without_it cumulative_change"), {}};
   for (const EffectRow& effect : run.effects) {
@@ -69,8 +69,8 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     add_item(tics, tic(separators_to_spaces(effect.name), --y), ",");
     (effect.active ? kept : omitted)
         .push_back({change, y, kSmallestDrawnChange, change, y - 0.3, y + 0.3});
-    add_item(effect.active ? needed : others, separators_to_spaces(effect.name) + " (" +
-                                                  percent_text(*effect.own_change, 2, false) + ")");
+    add_item(effect.active ? on : off, separators_to_spaces(effect.name) + " (" +
+                                           percent_text(*effect.own_change, 2, false) + ")");
     const double sum = std::max(effect.cumulative_change.value_or(0), kSmallestDrawnChange);
     if (effect.cumulative_change) cumulative.push_back({sum, y});
     largest = std::max({largest, change, sum});
@@ -84,12 +84,11 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   script.command("set ytics (" + tics + ")");
   script.axis_label("x", "relative change");
   const std::string boxes = "using 1:2:3:4:5:6 with boxxyerror lw 1.5" + lc(palette::color(0));
-  script.curve(kept, boxes + " fs solid", "needed");
-  script.curve(omitted, boxes + " fs empty", "not needed");
+  script.curve(kept, boxes + " fs solid", "kept");
+  script.curve(omitted, boxes + " fs empty", "omitted");
   script.curve(cumulative, "with points pt 5 ps 0.9" + lc(palette::color(1)), "cumulative");
-  std::string caption =
-      (needed.empty() ? "No measured effect is needed." : "Needed: " + needed + ".") +
-      (others.empty() ? "" : " Not needed: " + others + ".");
+  std::string caption = (on.empty() ? "No measured effect is kept." : "Kept: " + on + ".") +
+                        (off.empty() ? "" : " Omitted: " + off + ".");
   const auto scene = std::ranges::find(results.effect_scenes, info.id, &EffectScene::scene);
   if (scene != results.effect_scenes.end()) {
     script.curve({{scene->tolerance, y - 0.6}, {scene->tolerance, -0.4}},
@@ -98,7 +97,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
                percent_text(scene->change, 2, false) + ".";
   }
   // The key has only two columns, because the names of the effects reduce the width of the plot.
-  const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"}, 2);
+  const int key = script.place_key_below({"kept", "omitted", "cumulative", "tolerance"}, 2);
   script.plot();
   return Figure{
       .id = slug(info.id + "-" + run.variant + "-effects"),

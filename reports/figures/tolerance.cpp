@@ -35,7 +35,7 @@ double drawn_fraction(const Check& check) {
 bool is_shown(const Check& check) {
   if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
-         (check.verdict == Verdict::pass && std::isfinite(difference_over_tolerance(check)));
+         (check.verdict == Verdict::pass && is_numeric(check));
 }
 
 /// Returns a row for each case, or for each check if the family has only one case.
@@ -54,6 +54,13 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
       row.worst = std::max(row.worst, drawn_fraction(check));
     }
   return rows;
+}
+
+/// Keeps the check with the largest fraction in each row, and sorts the rows by this fraction.
+void keep_largest(std::vector<ToleranceRow>& rows) {
+  std::ranges::sort(rows, {}, [](const ToleranceRow& row) { return -row.worst; });
+  const auto fraction = [](const auto& entry) { return drawn_fraction(*entry.second); };
+  for (ToleranceRow& row : rows) row.checks = {*std::ranges::max_element(row.checks, {}, fraction)};
 }
 
 /// Returns the points of the checks for which `belongs` returns true.
@@ -89,11 +96,11 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
 }
 
 /// Sets the y axis and writes labels above the lines of their rows, so that they need no margin.
-void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows) {
+void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows, bool with_labels) {
   script.command("unset ytics; set border 1; set lmargin 2; set rmargin 3");
   script.command("unset grid; set grid xtics" + lc(palette::kGrid) + " lw 1 lt 1");
   script.range("y", -static_cast<double>(rows.size()), 0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = 0; with_labels && i < rows.size(); ++i) {
     const std::string label =
         shortened(rows[i].label, 44) + " (" + std::to_string(rows[i].checks.size()) + ")";
     const std::string line = ", first " + shortest_decimal(-static_cast<double>(i));
@@ -131,13 +138,15 @@ Table table_of(const std::vector<ToleranceRow>& rows) {
 
 std::optional<Figure> tolerance_figure(const std::string& family,
                                        const std::map<std::string, std::string>& titles,
-                                       const std::vector<const Run*>& runs) {
+                                       const std::vector<const Run*>& runs, bool largest_only) {
   if (runs.empty()) return std::nullopt;
-  const std::vector<ToleranceRow> rows = tolerance_rows(titles, runs);
+  std::vector<ToleranceRow> rows = tolerance_rows(titles, runs);
   if (rows.empty()) return std::nullopt;
 
+  const std::string caption = conclusion(rows);
+  if (largest_only) keep_largest(rows);
   PlotScript script;
-  draw_labels(script, rows);
+  draw_labels(script, rows, !largest_only);
   script.log_axis("x", kMinShare, kMaxShare);
   script.range("x", kMinShare / 1.6, kMaxShare * 1.6);
   script.command(
@@ -156,14 +165,13 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
-  const std::string caption = conclusion(rows);
   return Figure{
       .id = slug(family + "-tolerance"),
-      .title = "Fraction of the tolerance used by each check",
-      .caption = "Difference of each check divided by its tolerance, with the limit 1 as a line. " +
-                 caption,
+      .title = largest_only ? "Largest fraction of the tolerance in each case"
+                            : "Fraction of the tolerance used by each check",
+      .caption = "Difference divided by the tolerance, with the limit 1 as a line. " + caption,
       .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
-      .height = 105 + 40 * static_cast<int>(rows.size()),
+      .height = 105 + (largest_only ? 8 : 40) * static_cast<int>(rows.size()),
       .commands = script.commands(),
       .data = table_of(rows)};
 }

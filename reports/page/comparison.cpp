@@ -160,12 +160,12 @@ std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& com
 void write_comparison(const SideComparison& comparison, const fs::path& file) {
   std::vector<std::vector<Figure>> figures;
   for (const ComparedRun& run : comparison.runs) figures.push_back(figures_of(run, comparison));
-  std::vector<std::vector<Figure*>> page(1);
+  std::vector<Figure*> page;
   for (auto& own : figures)
-    for (Figure& figure : own) page.front().push_back(&figure);
-  number_figures(page);
+    for (Figure& figure : own) page.push_back(&figure);
+  make_ids_unique(page);
   const fs::path part = file.parent_path() / kUnfinishedFolder;
-  draw(page.front(), part);
+  draw(page, part);
   fs::remove_all(part);
   Data runs = list();
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {

@@ -15,9 +15,9 @@ namespace {
 
 /// Templates that other templates can include.
 constexpr std::array<const char*, 17> kPartials = {
-    "cell",  "checks", "claims_table", "counts", "families",   "figure",
-    "find",  "front",  "head",         "matrix", "matrix_row", "questions",
-    "roles", "rows",   "summary",      "table",  "tables"};
+    "cell", "checks", "claims_table", "counts", "families",  "figure",
+    "find", "front",  "head",         "matrix", "questions", "roles",
+    "rows", "study",  "summary",      "table",  "tables"};
 
 /// Typesets the powers of ten in an HTML text, except in code, styles, scripts and metadata.
 std::string with_powers_in_text(const std::string& html) {

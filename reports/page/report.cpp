@@ -55,11 +55,9 @@ fs::path write_report(const Results& results, const fs::path& out) {
   try {
     std::vector<Family> families = plan_family_figures(results);
     StudyFigures studies = plan_studies(results);
-    std::vector<std::vector<Figure*>> pages = figures_by_page(families);
-    pages.push_back(studies.all());
-    number_figures(pages);
-    std::vector<Figure*> figures;
-    for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());
+    std::vector<Figure*> figures = all_figures(families);
+    for (Figure* figure : studies.all()) figures.push_back(figure);
+    make_ids_unique(figures);
     // If the results include stored runs, unchanged drawings of the earlier report are reused.
     const Environment& from = results.environment;
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),

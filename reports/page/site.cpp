@@ -31,7 +31,7 @@ const std::vector<SectionPage>& section_pages() {
       {"uncertainty.html", "Validation uncertainty", {"validation_uncertainty"}},
       {"coverage.html", "Coverage", {"coverage"}},
       {"faults.html", "Seeded faults and rounding", {"detection", "certification"}},
-      {"environment.html", "Environment", {"environment", "history"}}};
+      {"environment.html", "Environment", {"history", "environment"}}};
   return pages;
 }
 
@@ -64,7 +64,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"known", discrepancy_section(results, families)},
        {"audit", audit_section(results, families, summary)},
        {"cost", cost_section(results, figures)},
-       {"stress_suite", stress_suite_section(families)},
+       {"stress_suite", stress_suite_section(families, figures)},
        {"effects", effects_section(results, figures)},
        {"orders", convergence_section(results, families)},
        {"validation_uncertainty", validation_uncertainty_section(families)},
@@ -168,10 +168,13 @@ std::string body_of(const std::string& name, const Data& section) {
   return render(name + ".mustache", object({{name, section}}));
 }
 
+/// Returns the sections of a page. A section can also contain figures of the front page.
 std::string sections_body(const Data& index, const std::vector<const char*>& keys) {
   std::string body;
-  for (const char* key : keys)
-    if (has_content(index, key)) body += body_of(key, *index.get(key));
+  for (const std::string key : keys)
+    if (has_content(index, key))
+      body += render(key + ".mustache",
+                     object({{key, *index.get(key)}, {"front", *index.get("front")}}));
   return body;
 }
 

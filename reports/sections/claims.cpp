@@ -56,6 +56,14 @@ std::string measured_range_text(const ClaimInterpretation& interpretation) {
                      number_text(interpretation, highest->value));
 }
 
+/// Returns the interpretation that decides the verdict on a claim: the first one that contradicts
+/// the claim, or else the first one.
+ClaimInterpretation deciding_interpretation(const std::vector<ClaimInterpretation>& all) {
+  if (all.empty()) return {};
+  const auto found = std::ranges::find(all, "contradicts", &ClaimInterpretation::verdict);
+  return found == all.end() ? all.front() : *found;
+}
+
 Data interpretation_data(const ClaimInterpretation& interpretation, const Results& results) {
   Data cases = list();
   std::vector<std::string> seen;
@@ -74,13 +82,14 @@ Data claim_data(const Claim& claim, const Results& results) {
   const auto interpretation = [&](const ClaimInterpretation& reading) {
     return interpretation_data(reading, results);
   };
+  const ClaimInterpretation deciding = deciding_interpretation(claim.interpretations);
   return with_verdict(
       claim.verdict,
       {{"id", claim.id},
        {"claim", claim.claim},
        {"short", shortened(claim.claim, kMaxClaim)},
-       {"deciding",
-        claim.interpretations.empty() ? "" : measured_range_text(claim.interpretations.front())},
+       {"deciding", measured_range_text(deciding)},
+       {"meaning", deciding.description},
        {"place", claim.place},
        {"conclusion", claim.verdict == "not measured"
                           ? "No case of these results measures this claim."

@@ -92,7 +92,6 @@ Data study_data(const CostStudy& study, const Figure& figure) {
     add_row(outputs, output.title + (output.scale.empty() ? "" : " (" + output.scale + ")"), study,
             output.cheapest);
   return object({{"anchor", study_anchor(study)},
-                 {"study_title", study.title},
                  {"description", study.description},
                  {"measured", measured_text(study)},
                  {"figure", figure_data(figure)},
@@ -104,13 +103,20 @@ Data study_data(const CostStudy& study, const Figure& figure) {
 
 std::vector<Figure*> StudyFigures::all() {
   std::vector<Figure*> figures;
-  for (std::vector<Figure>* some : {&cost, &effects, &history})
+  for (std::vector<Figure>* some : {&cost, &stress, &effects, &history})
     for (Figure& figure : *some) figures.push_back(&figure);
   return figures;
 }
 
 StudyFigures plan_studies(const Results& results) {
-  StudyFigures figures{{}, effect_scene_figures(results.effect_scenes), {}};
+  StudyFigures figures{{}, {}, effect_scene_figures(results.effect_scenes), {}};
+  std::map<std::string, std::string> titles;
+  std::vector<const Run*> stress;
+  for (const Run& run : results.runs)
+    if (const CaseInfo& info = results.case_info(run.case_id); info.stress_suite)
+      stress.push_back(&run), titles[info.id] = info.title;
+  if (auto figure = tolerance_figure("stress-cases", titles, stress, true))
+    figures.stress.push_back(std::move(*figure));
   if (results.cost)
     for (const CostStudy& study : results.cost->studies) figures.cost.push_back(cost_figure(study));
   if (results.history && results.history->calls.size() > 1)
@@ -121,20 +127,22 @@ StudyFigures plan_studies(const Results& results) {
 Data cost_section(const Results& results, const StudyFigures& figures) {
   if (figures.cost.empty()) return object({{"has_rows", false}});
   const CostStudies& cost = *results.cost;
-  Data studies = list();
+  Data lead = list(), studies = list();
   TextTable overview =
       cheapest_table("Cheapest settings of all studies", "Cheapest setting", cost.studies.front());
   for (std::size_t i = 0; i < cost.studies.size(); ++i) {
     const CostStudy& study = cost.studies[i];
     add_row(overview, study.title, study, study.cheapest);
     overview.links[study.title] = "#" + study_anchor(study);
-    studies.push_back(study_data(study, figures.cost[i]));
+    (figures.cost[i].id == kLeadFigure ? lead : studies)
+        .push_back(study_data(study, figures.cost[i]));
   }
   return object({{"has_rows", true},
                  {"sweep", cost.is_quick() ? "the quick sweep" : "the full sweep"},
                  {"quick", cost.is_quick()},
                  {"repeats", std::to_string(cost.repeats)},
                  {"overview", table_data(overview)},
+                 {"lead", lead},
                  {"studies", studies}});
 }
 

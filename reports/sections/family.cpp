@@ -32,7 +32,6 @@ std::string reference_link(const std::string& id) {
 
 Data figure_data(const Figure& figure) {
   return object({{"id", figure.id},
-                 {"number", std::to_string(figure.number)},
                  {"figure_title", figure.title},
                  {"caption", figure.caption},
                  {"svg", figure.svg},
@@ -105,15 +104,14 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
              {"warnings", warned},
              {"warnings_title",
               warned.is_non_empty_list() ? count(warned.list_value().size(), "warning") : ""},
-             {"warnings_open", warned.list_value().size() <= 2},
              {"problems", texts(gallery.problems)},
-             {"has_figures", !gallery.shown.empty() || !gallery.problems.empty()},
+             {"sketch", list_of(gallery.sketch, figure_data)},
+             {"has_figures", !gallery.shown.empty()},
              {"figures", list_of(gallery.shown, figure_data)},
              {"folded_figures_title",
               gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure")},
              {"folded_figures", list_of(gallery.folded, figure_data)},
              {"tables", case_check_tables(info, runs, results)},
-             {"has_variant_tables", !info.tables.empty()},
              {"variant_tables", object({{"tables", variant_tables(info, runs)}})},
              {"csv", "checks/" + slug(info.id) + ".csv"}});
   set_run_tables(data, info, runs);

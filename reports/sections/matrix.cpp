@@ -15,9 +15,8 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr std::size_t kMaxUnfoldedMatrixRows = 10;  ///< unfolded rows of a matrix of over 13 rows
-constexpr double kFullColorDifference = 0.4;        ///< relative difference with the darkest color
-constexpr double kTargetReached = 0.01;             ///< largest difference of a reached target
+constexpr double kFullColorDifference = 0.4;  ///< relative difference with the darkest color
+constexpr double kTargetReached = 0.01;       ///< largest difference of a reached target
 
 /// A check, and the comparison of its difference with the validation uncertainty if there is one.
 struct MatrixCell {
@@ -222,12 +221,9 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
     return object(
         {{"entry", std::to_string(target.first + 1)}, {"target", trimmed(target.second, 6)}});
   };
-  const std::size_t rows = subject.rows.size();
-  const std::size_t shown = rows > kMaxUnfoldedMatrixRows + 3 ? kMaxUnfoldedMatrixRows : rows;
-  Data unfolded = list(), folded = list();
-  for (std::size_t i = 0; i < rows; ++i)
-    (i < shown ? unfolded : folded)
-        .push_back(matrix_row(subject, subject.rows[i], family, results));
+  const auto row = [&](const MatrixRow& variant) {
+    return matrix_row(subject, variant, family, results);
+  };
   return object(
       {{"title", reference ? reference->title : subject.reference},
        {"reference_link", reference ? reference_link(reference->id) : ""},
@@ -238,11 +234,9 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
         tally.entries == 0 ? "" : "Of " + count(tally.entries, "comparison") + ": " + tally.text()},
        {"entry_word", entry_word(subject)},
        {"columns", list_of(subject.targets, column)},
-       {"has_nearest", rows > 1},
-       {"nearest", rows > 1 ? cells_of(subject, nearest_of(subject)) : list()},
-       {"rows", unfolded},
-       {"folded", folded},
-       {"folded_title", shown == rows ? "" : count(rows - shown, "further variant")}});
+       {"has_nearest", subject.rows.size() > 1},
+       {"nearest", cells_of(subject, nearest_of(subject))},
+       {"rows", list_of(subject.rows, row)}});
 }
 
 /// Returns whether a matrix is shown. It needs many variants or validation uncertainties.

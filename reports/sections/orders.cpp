@@ -12,8 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kOrderTolerance = 0.1;         ///< relative difference of an order near theory
-constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< largest number of unfolded rows of a table
+constexpr double kOrderTolerance = 0.1;  ///< relative difference of an order near theory
 
 /// Convergence of all values of one quantity in one refinement study (sweep) of one run.
 using OrderRow = std::vector<const Convergence*>;
@@ -141,7 +140,9 @@ Data family_of(const Family& family, Findings& all) {
   }
   table.caption = conclusion_of(all);
   Data data = table_data(table);
-  set(data, {{"folded_title", count(all.rows, "row")}, {"open", all.rows <= kMaxUnfoldedOrders}});
+  set(data, {{"folded_title", count(all.rows, "row")},
+             {"near", all.fitted > 0 ? std::to_string(all.near) : ""},
+             {"others", std::to_string(all.fitted - all.near)}});
   return data;
 }
 

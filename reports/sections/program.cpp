@@ -40,9 +40,11 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
       cells.push_back(row.reason);
     }
   Data data = table_data(table);
-  data.set("count", std::to_string(verified) + " of " + std::to_string(table.rows.size()) +
-                        " with independent evidence, " + std::to_string(with_reason) +
-                        " without, for a recorded reason");
+  set(data, {{"count", std::to_string(verified) + " of " + std::to_string(table.rows.size()) +
+                           " with independent evidence, " + std::to_string(with_reason) +
+                           " without, for a recorded reason"},
+             {"verified", std::to_string(verified)},
+             {"others", std::to_string(table.rows.size() - verified)}});
   return data;
 }
 

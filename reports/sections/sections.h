@@ -29,10 +29,13 @@ namespace trammel::reports {
 /// Returns the data of a drawn figure for the template figure.mustache.
 [[nodiscard]] Data figure_data(const Figure& figure);
 
-/// Figures of studies of many cases. `plan_studies` neither numbers nor draws the figures.
+/// Id of the figure that represents all cost studies.
+inline constexpr const char* kLeadFigure = "cost-modes-elements";
+
+/// Figures of studies of many cases. `plan_studies` does not draw the figures.
 struct StudyFigures {
   std::vector<Figure> cost;  ///< one figure for each cost study of the results
-  std::vector<Figure> effects, history;
+  std::vector<Figure> stress, effects, history;
 
   [[nodiscard]] std::vector<Figure*> all();
 };
@@ -74,9 +77,10 @@ struct StudyFigures {
 /// Provenance of all references.
 [[nodiscard]] Data references_section(const Results& results);
 
-/// Results of the stress suite, which examines numerical stability. Each indicator has its worst
-/// value, bound, reason and verdict.
-[[nodiscard]] Data stress_suite_section(const std::vector<Family>& families);
+/// Results of the stress suite, which examines numerical stability. Each case has its largest
+/// fraction of a tolerance. Each indicator has its worst value, bound, reason and verdict.
+[[nodiscard]] Data stress_suite_section(const std::vector<Family>& families,
+                                        const StudyFigures& figures);
 
 /// Verdict, failures and counts of all checks.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
@@ -93,8 +97,8 @@ struct StudyFigures {
 [[nodiscard]] Data front_page_section(const Results& results, const std::vector<Family>& families,
                                       const StudyFigures& figures);
 
-/// Returns the tables of the checks of a case. If there are many checks, one table has the worst
-/// value of each check, and a folded table has all checks.
+/// Returns the tables of the checks of a case: one with the worst values of the most severe checks,
+/// and one with all checks.
 [[nodiscard]] Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                      const Results& results);
 

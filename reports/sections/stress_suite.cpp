@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -43,6 +44,10 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
 }
 
 Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
+  double largest = 0;
+  for (const Run* run : family.runs_of(info.id))
+    for (const Check& check : run->checks)
+      if (is_numeric(check)) largest = std::max(largest, difference_over_tolerance(check));
   Data rows = list();
   for (const std::string& check : info.stress_suite->indicators) {
     const Indicator indicator = worst_of(check, family.runs_of(info.id));
@@ -52,7 +57,10 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
                        : with_status(CheckStatus::not_run,
                                      {{"quantity", check}, {"of_what", "no run has this check"}}));
   }
-  return object({{"case_title", info.title}, {"case_link", case_link(info.id)}, {"rows", rows}});
+  return object({{"case_title", info.title},
+                 {"case_link", case_link(info.id)},
+                 {"largest", percent_text(largest, 2, false)},
+                 {"rows", rows}});
 }
 
 std::string counts_text(const Counts& counts, std::size_t items, std::size_t cases) {
@@ -66,7 +74,7 @@ std::string counts_text(const Counts& counts, std::size_t items, std::size_t cas
 
 }  // namespace
 
-Data stress_suite_section(const std::vector<Family>& families) {
+Data stress_suite_section(const std::vector<Family>& families, const StudyFigures& figures) {
   std::multimap<int, Data> cases;
   std::set<int> items;
   Counts counts;
@@ -76,10 +84,9 @@ Data stress_suite_section(const std::vector<Family>& families) {
         cases.emplace(info->stress_suite->item, case_of(*info, family, counts));
         items.insert(info->stress_suite->item);
       }
-  Data in_order = list();
-  for (const auto& [item, data] : cases) in_order.push_back(data);
   return object({{"has_rows", !cases.empty()},
-                 {"cases", in_order},
+                 {"figures", list_of(figures.stress, figure_data)},
+                 {"cases", list_of(cases, [](const auto& entry) { return entry.second; })},
                  {"words", counts_text(counts, items.size(), cases.size())}});
 }
 

@@ -120,6 +120,10 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
+std::string known_checks_text(const Results& results) {
+  return count(count_of(counts_of(results, "all"), CheckStatus::known_discrepancy), "check");
+}
+
 /// Known discrepancies of all values of one check in all variants of a case.
 struct KnownDiscrepancy {
   const CaseInfo* info;
@@ -265,66 +269,52 @@ Data tiles_of(const Results& results) {
                  " cannot be decided.",
              "paper.html", CheckStatus::known_discrepancy));
   }
-  if (const std::size_t printed = targets_of(results).printed.size())
-    tiles.push_back(tile(std::to_string(printed), "Printed numbers that differ",
-                         "from the computed ones, each with its reason.", "paper.html#known",
-                         CheckStatus::known_discrepancy));
+  const Targets targets = targets_of(results);
+  if (!targets.printed.empty())
+    tiles.push_back(tile(std::to_string(targets.printed.size()), "Printed numbers that differ",
+                         "from the computed ones; " + known_checks_text(results) +
+                             " compare these and " + count(targets.stated.size(), "statement") +
+                             ".",
+                         "paper.html#known", CheckStatus::known_discrepancy));
   return tiles;
-}
-
-/// Returns the case with the largest number of comparisons of printed and computed values, and its
-/// figures. Only cases with validation uncertainties are considered.
-std::pair<const CaseInfo*, const Gallery*> find_main_comparison(
-    const std::vector<Family>& families) {
-  std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
-  std::size_t most = 0;
-  for (const Family& family : families)
-    for (const CaseInfo* info : family.cases) {
-      const Gallery& gallery = family.galleries.at(info->id);
-      if (!family.runs_of(info->id).front()->uncertainty) continue;
-      for (const Figure& figure : gallery.shown) {
-        if (!figure.id.ends_with("-agreement") || figure.data.rows.size() <= most) continue;
-        most = figure.data.rows.size();
-        found = {info, &gallery};
-      }
-    }
-  return found;
 }
 
 void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   Figure linked = figure;
   linked.is_linked = true;
-  linked.number = static_cast<int>(figures.list_value().size()) + 1;
   Data data = figure_data(linked);
-  data.set("more", link);
+  set(data, {{"more", link}, {"is_agreement", figure.id.ends_with("-agreement")}});
   figures.push_back(data);
 }
 
-/// Returns three figures: the manipulator, its printed and computed frequencies, and its modes.
+/// Returns the figures of the case with the largest number of comparisons of printed and computed
+/// values: the manipulator, its frequencies and its modes. Only cases with validation uncertainties
+/// are considered.
 Data manipulator_figures(const std::vector<Family>& families) {
+  const Gallery* found = nullptr;
+  std::size_t most = 0;
+  for (const Family& family : families)
+    for (const auto& [id, gallery] : family.galleries) {
+      if (!family.runs_of(id).front()->uncertainty) continue;
+      for (const Figure& figure : gallery.shown) {
+        if (!figure.id.ends_with("-agreement") || figure.data.rows.size() <= most) continue;
+        most = figure.data.rows.size();
+        found = &gallery;
+      }
+    }
   Data figures = list();
-  const auto [info, gallery] = find_main_comparison(families);
-  if (info == nullptr) return figures;
-  for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
-    const auto figure = std::ranges::find_if(
-        gallery->shown, [&](const Figure& shown) { return shown.id.ends_with(end); });
-    if (figure != gallery->shown.end()) add_figure(*figure, case_link(info->id), figures);
-  }
+  if (found == nullptr) return figures;
+  for (const std::vector<Figure>* part : {&found->sketch, &found->shown})
+    for (const Figure& figure : *part) add_figure(figure, "", figures);
   return figures;
 }
 
 /// Returns one figure each of computing cost, of numerical stability and of the selected effects.
-Data study_figures(const std::vector<Family>& families, const StudyFigures& studies) {
+Data study_figures(const StudyFigures& studies) {
   Data figures = list();
-  const auto modes = std::ranges::find(studies.cost, "cost-modes-elements", &Figure::id);
+  const auto modes = std::ranges::find(studies.cost, kLeadFigure, &Figure::id);
   if (modes != studies.cost.end()) add_figure(*modes, "cost.html", figures);
-  const auto stress_cases = [](const Family& family) {
-    return std::ranges::count_if(
-        family.cases, [](const CaseInfo* info) { return info->stress_suite.has_value(); });
-  };
-  const auto stress = std::ranges::max_element(families, {}, stress_cases);
-  if (stress != families.end() && stress_cases(*stress) > 0 && !stress->overview.empty())
-    add_figure(stress->overview.front(), "stress.html", figures);
+  if (!studies.stress.empty()) add_figure(studies.stress.front(), "stress.html", figures);
   if (!studies.effects.empty()) add_figure(studies.effects.front(), "effects.html", figures);
   return figures;
 }
@@ -335,6 +325,7 @@ Data discrepancy_section(const Results& results, const std::vector<Family>& fami
   const Data known = known_by_family(results, families);
   return object({{"has_rows", known.is_non_empty_list()},
                  {"words", targets_of(results).text()},
+                 {"checks", known_checks_text(results)},
                  {"known_families", known}});
 }
 
@@ -379,7 +370,7 @@ Data summary_section(const Results& results, const std::vector<Family>& families
 
 Data front_page_section(const Results& results, const std::vector<Family>& families,
                         const StudyFigures& studies) {
-  const Data answer = manipulator_figures(families), questions = study_figures(families, studies);
+  const Data answer = manipulator_figures(families), questions = study_figures(studies);
   return object({{"tiles", tiles_of(results)},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},

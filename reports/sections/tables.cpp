@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <ranges>
 #include <set>
 
 #include "harness/base/find_or_add.h"
@@ -9,8 +11,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< largest number of unfolded rows of a case
-constexpr std::size_t kMaxEntries = 12;         ///< checks with more values have one row
+constexpr std::size_t kMaxHeadlines = 8;  ///< largest number of unfolded rows of a case
+constexpr std::size_t kMaxEntries = 12;   ///< checks with more values have one row
 
 /// Returns the table cells of one value. The first row also has the cells that span all rows.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
@@ -36,14 +38,13 @@ std::string range_text(const Check& check) {
 /// page can point.
 struct Rows {
   const Results& results;
-  bool is_linked = false;
   std::set<std::string> named = {};
 };
 
 /// Returns the data of one check with a row for each value.
 /// @param shared  true if all rows have the same tolerance
 Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
-  const bool first = table.is_linked && table.named.insert(check.name).second;
+  const bool first = table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();
   for (const Data& row : rows.list_value()) n += row.get("message")->is_string() ? 1 : 0;
   const QuantityDefinition* definition = find_quantity_definition(check.quantity, "");
@@ -54,7 +55,6 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"name", check_title(check)},
                  {"quantity", quantity_text(check)},
                  {"meaning", definition == nullptr ? "" : definition->meaning},
-                 {"role", check.role},
                  {"shared", shared},
                  {"range", range_text(check)},
                  {"why", check.why},
@@ -113,31 +113,22 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
        {"reason", run.reason}});
 }
 
-/// Returns the number of rows that `add_group` adds for all checks of the runs.
-std::size_t rows_in(const std::vector<const Run*>& runs) {
-  std::size_t n = 0;
-  for (const Run* run : runs)
-    for (const CheckGroup& group : group_checks(*run))
-      n += group.checks.size() > kMaxEntries ? 1 : group.checks.size();
-  return n;
-}
-
-Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
+Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
   Data table = list();
   for (const Run* run : runs) {
     // A solved variant without checks, such as a baseline of other variants, has no rows.
     if (run->checks.empty() && run->status == Status::solved) continue;
     Data data = run_data(info, *run, runs.size() > 1);
     Data groups = list();
-    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, linked);
+    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, rows);
     data.set("groups", groups);
     table.push_back(data);
   }
   return table;
 }
 
-/// Returns a table of the worst value of each check over all variants.
-Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
+/// Returns the worst values of checks over all variants, the most severe checks first.
+Data headlines(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
   struct Worst {
     const Check* check;
     const Run* run;
@@ -154,15 +145,16 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
       known.entries += group.checks.size();
       if (is_worse_than(check, *known.check)) known.check = &check, known.run = run;
     }
+  std::ranges::stable_sort(
+      worst, [](const Worst& a, const Worst& b) { return is_worse_than(*a.check, *b.check); });
   Data groups = list();
-  for (const Worst& w : worst) {
-    auto entry = w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
+  for (const Worst& w : worst | std::views::take(kMaxHeadlines)) {
+    std::string entry =
+        w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
-    groups.push_back(group_of_worst(*w.check, entry, linked));
+    groups.push_back(group_of_worst(*w.check, entry, rows));
   }
-  Data table = list();
-  table.push_back(object({{"variant", ""}, {"ending", ""}, {"reason", ""}, {"groups", groups}}));
-  return table;
+  return groups;
 }
 
 }  // namespace
@@ -171,16 +163,13 @@ Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs
                        const Results& results) {
   std::size_t checks = 0;
   for (const Run* run : runs) checks += run->checks.size();
-  const bool few = rows_in(runs) <= kMaxUnfoldedChecks;
-  Data tables = object({{"has_checks", checks > 0},
-                        {"runs", few ? full_table(info, runs, {results, true})
-                                     : worst_table(info, runs, {results, true})},
-                        {"has_folded", !few}});
-  if (few) return tables;
-  std::string title = "All " + count(checks, "number");
+  std::string title = "All checks: " + count(checks, "number");
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
-  set(tables, {{"folded_title", title}, {"folded_runs", full_table(info, runs, {results})}});
-  return tables;
+  Rows rows{results};
+  return object({{"has_checks", checks > 0},
+                 {"headlines", headlines(info, runs, rows)},
+                 {"title", title},
+                 {"runs", full_table(info, runs, rows)}});
 }
 
 Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {

@@ -9,7 +9,7 @@ function unfold() {
   if (folded) target.scrollIntoView();
 }
 addEventListener("hashchange", unfold);
-addEventListener("beforeprint", () => document.querySelectorAll("#cost > details").forEach(e => e.open = true));
+addEventListener("beforeprint", () => document.querySelectorAll("#cost details, .reference details").forEach(e => e.open = true));
 unfold();
 const contents = document.querySelector(".contents details");
 if (contents && matchMedia("(max-width: 70rem)").matches) contents.open = false;

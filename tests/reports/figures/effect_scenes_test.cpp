@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(caption_counts_accurate_and_minimal_scenes) {
   BOOST_TEST(effect_scene_figures({}).empty());
 }
 
-BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_needed_effects) {
+BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_kept_effects) {
   CaseInfo info;
   Results results;
   Run run;
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_needed_effects) {
   run.effects = {{"link-mass", "", "", true, true, 0, {}, 0.05, 0.06},
                  {"shear", "", "", true, false, 0, {}, 0.002, 0.002}};
   const std::string caption = effects_figure(info, results, run)->caption;
-  BOOST_TEST(contains(caption, "Needed: link mass (5\u202f%). Not needed: shear (0.2\u202f%)."));
+  BOOST_TEST(contains(caption, "Kept: link mass (5\u202f%). Omitted: shear (0.2\u202f%)."));
   BOOST_TEST(contains(caption, "Requested 1\u202f%, obtained 0.2\u202f%."));
 }
 

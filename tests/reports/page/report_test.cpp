@@ -195,17 +195,18 @@ BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   const ClaimEntry low{"vpcs-sdll02", "base", "exact", 1},
       high{"vpcs-sdll02", "base", "exact", 1.5};
   const ClaimInterpretation ratio{"flexible over rigid", "ratio", "1", "contradicts", {low, high}},
+      first{"with training data", "ratio", "1", "confirms", {low}},
       relative{"sensitivity", "relative", "1", "not measured", {}};
   const char* undecided = "cannot be decided";
-  results.claims =
-      Claims{"Three claims",
-             false,
-             {claim("3", "Displacements are small.", "contradicted", "confirmed", "", {ratio}),
-              claim("7", "The sensitivity rises.", "not measured", "not measured", "", {relative}),
-              claim("10", "It matches.", undecided, undecided, "Nothing is published.", {})}};
+  results.claims = Claims{
+      "Three claims",
+      false,
+      {claim("3", "Displacements are small.", "contradicted", "confirmed", "", {first, ratio}),
+       claim("7", "The sensitivity rises.", "not measured", "not measured", "", {relative}),
+       claim("10", "It matches.", undecided, undecided, "Nothing is published.", {})}};
   const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
-                           "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",
+                           "<td class=\"number\">× 1 to × 1.5</td>", "(expected: confirmed)",
                            "No case of these results measures this claim.", "Nothing is published.",
                            "This &lt;b&gt;follows&lt;/b&gt;.", "<li><a href=\"paper.html\">"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
