@@ -129,7 +129,7 @@ AnalysisResult analyze(const Document& document, const References& references,
   const JsonView place = JsonView(document)["analysis"][kind.name];
   CaseModel case_model = read_case_model(document);
   if (kind.needs_manipulator && !case_model.manipulator)
-    throw place.error("this analysis requires a model with 'manipulator'");
+    throw place.error("expected a model with 'manipulator'");
   return rethrow_as_input_error(document, [&] {
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);

@@ -161,8 +161,7 @@ std::string read_text(const std::filesystem::path& file) {
   if (regular) in.open(file, std::ios::binary);
   if (!in.is_open()) throw InputError(file.string() + ": expected a readable file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > most)
-    throw InputError(file.string() + ": expected a file of at most 256 MiB");
+  if (error || size > most) throw InputError(file.string() + ": expected a file of up to 256 MiB");
   std::string text(size, '\0');
   in.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(in.gcount()));

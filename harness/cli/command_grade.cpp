@@ -80,8 +80,7 @@ void print_grades(const std::vector<results::Run>& runs) {
   std::vector<std::string> parts;
   for (const auto& [grade, count] : counts)
     parts.push_back(fmt::format("{} {}", count, to_string(grade)));
-  std::cout << count_of(runs.size(), "run") << ": " << fmt::format("{}", fmt::join(parts, ", "))
-            << '\n';
+  std::cout << count_of(runs.size(), "run") << fmt::format(": {}\n", fmt::join(parts, ", "));
 }
 
 results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,

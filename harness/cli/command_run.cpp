@@ -179,23 +179,20 @@ bool is_results_file(const std::string& name) {
   }
 }
 
-/// Returns the path of the first installed program of the list `names`.
+/// Returns the path of the first installed program that serves for an option.
 /// @throws InputError  if none is installed
-std::string require_program(const std::string& option, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
+std::string require_program(const std::string& option) {
+  static const std::map<std::string, std::vector<std::string>> kPrograms = {
+      {"--pdf", {"chromium", "chromium-browser", "google-chrome"}}, {"--open", {"xdg-open"}}};
+  for (const std::string& name : kPrograms.at(option))
     if (const std::string path = find_program(name); !path.empty()) return path;
-  throw InputError(option + ": expected the program '" + names.front() + "' in PATH");
-}
-std::string chromium() {
-  return require_program("--pdf", {"chromium", "chromium-browser", "google-chrome"});
-}
-std::string opener() {
-  return require_program("--open", {"xdg-open"});
+  throw InputError(option + ": expected the program '" + kPrograms.at(option).front() +
+                   "' in PATH");
 }
 
 void require_programs(const CommandOptions& options) {
-  if (options.pdf) (void)chromium();
-  if (options.open) (void)opener();
+  if (options.pdf) (void)require_program("--pdf");
+  if (options.open) (void)require_program("--open");
 }
 
 /// Prints summary.html as PDF, and shows the report in a browser, if the options request this.
@@ -212,17 +209,18 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
     std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
     if (mkdtemp(profile.data()) == nullptr)
       throw InputError(profile + ": no folder for Chromium can be created");
-    const ProcessOutcome outcome = run_limited(
-        {chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
-         "--user-data-dir=" + profile, "--print-to-pdf=" + pdf.string(), sheet.string()},
-        profile, {});
+    const ProcessOutcome outcome =
+        run_limited({require_program("--pdf"), "--headless", "--no-sandbox", "--disable-gpu",
+                     "--no-pdf-header-footer", "--user-data-dir=" + profile,
+                     "--print-to-pdf=" + pdf.string(), sheet.string()},
+                    profile, {});
     std::filesystem::remove_all(profile);
     if (!std::filesystem::exists(pdf))
       throw InputError("--pdf: Chromium failed: " + one_line(outcome.text));
     std::cout << "summary in " << pdf.string() << std::endl;
   }
   if (options.open && fork() == 0) {
-    const std::string program = opener();
+    const std::string program = require_program("--open");
     setsid();  // the browser may remain open after this program
     execl(program.c_str(), program.c_str(), page.c_str(), nullptr);
     _exit(127);
@@ -348,8 +346,7 @@ std::filesystem::path write_pages(const results::Results& results, const std::st
 
 int run_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.shard.empty()) return compute_shard(options);
-  if (is_catalogue(options))
-    throw InputError("expected a case or a label (see trammel run --help)");
+  if (is_catalogue(options)) throw InputError("expected a case or label (see trammel run --help)");
   const Selection selection = select(options);
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);

@@ -50,8 +50,7 @@ void require_exportable(const Document& document) {
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
     throw root["model"]["trajectory"].error("a trajectory cannot be exported; expected 'pose'");
-  if (place.has("track"))
-    throw place["track"].error("'track' cannot be exported; expected 'drives'");
+  if (place.has("track")) throw place["track"].error("'track' is not exported; expected 'drives'");
 }
 
 /// Returns the JSON object of the analysis, with keys that switch each effect on or off as chosen.

@@ -249,8 +249,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   if (check.negative_control && context.other_solver != nullptr) {
-    CheckResult control =
-        failed_check_result(check, "this check tests only trammel's own judgment");
+    CheckResult control = failed_check_result(check, "this check tests only trammel's judgment");
     control.verdict = Verdict::not_given;
     return {control};
   }

@@ -231,8 +231,7 @@ Results read_results(Json json) {
 
 Results read_results(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in)
-    throw std::system_error(EIO, std::generic_category(), file.string() + ": cannot be read");
+  if (!in) throw std::system_error(EIO, std::generic_category(), file.string() + ": not readable");
   try {
     return read_results(Json::parse(in));
   } catch (const Json::parse_error& error) {

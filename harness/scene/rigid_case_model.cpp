@@ -13,8 +13,7 @@ constexpr solver::Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P 
 
 solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
                                                 const CaseModel& case_model) {
-  if (!case_model.manipulator)
-    throw analysis.error("this analysis requires a model with 'manipulator'");
+  if (!case_model.manipulator) throw analysis.error("expected a model with 'manipulator'");
   const JsonView model = JsonView(analysis.document())["model"];
   for (const char* kind :
        {"members", "plates", "rigid_bodies", "point_masses", "springs", "supports"}) {

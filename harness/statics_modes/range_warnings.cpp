@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/model/model.h"
@@ -96,20 +97,19 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
                          "amplified as much as displacements"});
 }
 
-double largest_wave_number(const solver::System& system, double frequency) {
-  const double omega = 2 * std::numbers::pi * frequency;
-  double largest = 0;
+double resolved_frequency(const solver::System& system) {
+  double lowest = std::numeric_limits<double>::infinity();
   for (const solver::FrameElement& e : system.mesh.frame) {
-    if (!(e.section.EI > 0)) continue;
-    const double beta = std::pow(omega * omega * e.section.mass_per_length / e.section.EI, 0.25);
-    largest = std::max(largest, beta * e.length);
+    const double beta = kMaxWaveNumber / e.length;
+    const double omega = beta * beta * std::sqrt(e.section.EI / e.section.mass_per_length);
+    if (e.section.EI > 0) lowest = std::min(lowest, omega / (2 * std::numbers::pi));
   }
-  return largest;
+  return lowest;
 }
 
 void warn_of_wave_length(const solver::System& system, double frequency,
                          std::vector<Warning>& warnings) {
-  const double largest = largest_wave_number(system, frequency);
+  const double largest = kMaxWaveNumber * std::sqrt(frequency / resolved_frequency(system));
   if (!(largest > kMaxWaveNumber)) return;
   add_warning(warnings, {"the largest dimensionless wave number of an element", largest, "",
                          "above pi / 2 there are fewer than two elements per half wave of the "

@@ -39,8 +39,9 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
 /// Limit of the dimensionless wave number beta l of an element with cubic deflection. A half wave
 /// of bending has the length pi / beta, with beta^4 = w^2 m / EI. The limit is half of a half wave.
 inline constexpr double kMaxWaveNumber = 1.5708;
-/// Returns the largest dimensionless wave number of the elements at a frequency [Hz].
-[[nodiscard]] double largest_wave_number(const solver::System& system, double frequency);
+/// Returns the highest frequency with at least two elements per half wave of bending [Hz]; infinite
+/// without bending.
+[[nodiscard]] double resolved_frequency(const solver::System& system);
 /// Warns if the elements are too long for the highest mode.
 /// @param frequency  highest of the reported modes [Hz]
 void warn_of_wave_length(const solver::System& system, double frequency,

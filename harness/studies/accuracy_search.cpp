@@ -109,8 +109,7 @@ class Search {
   void coarsen() {
     if (!has(ErrorSource::mesh) && !has(ErrorSource::step))
       throw current_.error("/analysis", "the case has no mesh and no time step to be refined");
-    for (auto patch = mesh_patch(current_, Refine::coarser); patch;
-         patch = mesh_patch(current_, Refine::coarser))
+    while (const auto patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
     for (int i = 0; i < kCoarserSteps && has(ErrorSource::step) && may_be_longer(); ++i)
       if (const auto patch = time_step_patch(current_, Refine::coarser))

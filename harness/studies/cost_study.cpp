@@ -181,8 +181,7 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
   for (const auto& [name, place] : study["quantities"].entries()) {
     if (output_number(study, place) != output) continue;
     if (unit.empty()) unit = unit_of(name);
-    if (unit_of(name) != unit)
-      throw place.error("a common 'scale' requires quantities of one unit");
+    if (unit_of(name) != unit) throw place.error("a common 'scale' requires equal units");
   }
 }
 

@@ -162,13 +162,6 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
-/// Returns the highest frequency [Hz] with at least two elements per half wave of bending. The wave
-/// number of an element is proportional to the square root of the frequency.
-double resolved_frequency(const Document& coarse) {
-  const solver::Model model = model_at_path_start(read_case_model(coarse));
-  return std::pow(kMaxWaveNumber / largest_wave_number(solver::assemble(model), 1.0), 2);
-}
-
 /// Returns true if a quantity converges under refinement. Coordinates, counts and measures of
 /// accuracy do not converge.
 bool is_estimated(const std::string& name) {
@@ -282,10 +275,11 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
   ErrorBands bands;
   const bool by_shape = has_shapes(result) && has_shapes(other);
   // A finer companion has half the element size of the coarse mesh.
-  const double resolved =
-      source == ErrorSource::mesh && discretized_analysis(document) == "modes"
-          ? resolved_frequency(document) / (companion.finer ? std::pow(companion.ratio, 2) : 1)
-          : std::numeric_limits<double>::infinity();
+  double resolved = std::numeric_limits<double>::infinity();
+  if (source == ErrorSource::mesh && inner_analysis_kind(document) == "modes")
+    resolved =
+        resolved_frequency(solver::assemble(model_at_path_start(read_case_model(document)))) /
+        (companion.finer ? 4 : 1);
   for (const auto& [name, quantity] : result.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;

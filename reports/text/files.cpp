@@ -50,8 +50,7 @@ std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream out;
   out << in.rdbuf();
-  if (!in)
-    throw std::system_error(EIO, std::generic_category(), path.string() + ": cannot be read");
+  if (!in) throw std::system_error(EIO, std::generic_category(), path.string() + ": not readable");
   return out.str();
 }
 

@@ -116,7 +116,7 @@ const Refusal kRefusals[] = {
     {"rn --help", "expected a command (got 'rn'); did you mean 'run'?"},
     {"help verdict", "effects and accuracy (got 'verdict'); did you mean 'verdicts'?"},
     {"run variants.json:agian", "(got 'agian'); did you mean 'again'?"},
-    {"run", "expected a case or a label (see trammel run --help)"},
+    {"run", "expected a case or label (see trammel run --help)"},
     {"run --nonsense x", "The following argument was not expected: --nonsense"},
     {"run none.json", "none.json: expected a readable file"},
     {"run /dev/zero", "/dev/zero: expected a readable file"},

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(text_that_is_not_json_is_refused_with_its_byte) {
   const Workspace workspace;
   BOOST_CHECK_EXCEPTION((void)read_results(workspace.path() / "none.json"), std::runtime_error,
                         [](const auto& error) {
-                          return std::string(error.what()).find("cannot be read") !=
+                          return std::string(error.what()).find("not readable") !=
                                  std::string::npos;
                         });
 }
