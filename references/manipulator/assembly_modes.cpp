@@ -101,7 +101,7 @@ struct Search {
     add_crossing(extremum, to);
   }
 
-  /// Adds all zeros of Q between two angles.
+  /// Adds all zeros of the polynomial Q(phi) between two angles of the platform.
   void find(const Real& from, const Real& to) {
     const Real h = (to - from) / 2, middle = from + h;
     const Jet<Real> q = jet(middle);
