@@ -32,6 +32,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     if (auto figure = effects_figure(info, results, *run)) values.push_back(*figure);
     if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
       shapes.push_back(*motion);
+    std::ranges::move(convergence_figures(info, *run), std::back_inserter(meshes));
   }
   for (const Run* run : runs)
     if (auto shape = shapes_figure(info, *run); shape && ++variants <= kMaxDrawnVariants)
@@ -51,8 +52,6 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     else
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
   }
-  for (const Run* run : runs)
-    std::ranges::move(convergence_figures(info, *run), std::back_inserter(meshes));
   for (std::vector<Figure>* figures : {&values, &shapes, &meshes})
     for (Figure& figure : *figures) {
       const bool is_first = &figure == &figures->front();

@@ -81,9 +81,9 @@ class ExcessDistances {
   /// Computes the excess D_i^2 - D_m^2 of every sample i for a query. D is the distance from the
   /// query, and m the nearest sample.
   /// @param query  scaled input.
-  /// @param reach  limit above which the excess need not be exact: samples with a larger excess may
-  ///   get any value that is at least `reach`.
-  /// @param skip   samples to leave out (their excess is infinite), or null.
+  /// @param excess_limit  limit above which the excess need not be exact: samples with a larger
+  ///   excess may get any value of at least `excess_limit`.
+  /// @param excluded  true for samples to leave out (their excess is infinite), or null.
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded = nullptr);
 
