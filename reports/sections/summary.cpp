@@ -213,7 +213,7 @@ Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
 }
 
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
-  if (total(counts) == 0) return "No checks were made.";
+  if (total(counts) == 0) return "No checks were made; there is nothing to compare with.";
   const std::size_t fails = count_of(counts, CheckStatus::fails);
   const std::size_t changed = count_of(counts, CheckStatus::changed_discrepancy);
   const std::size_t errors = count_of(counts, CheckStatus::error);
@@ -353,11 +353,9 @@ Data summary_section(const Results& results, const std::vector<Family>& families
   const Counts counts = counts_of(results, "all");
   std::size_t unexpected_endings = 0;
   const Data failure_list = failures(results, unexpected_endings);
-  const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
-  const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
-  const CheckStatus status = !good       ? CheckStatus::fails
-                             : all_agree ? CheckStatus::passes
-                                         : CheckStatus::known_discrepancy;
+  CheckStatus status = total(counts) > 0 ? CheckStatus::passes : CheckStatus::not_judged;
+  if (count_of(counts, CheckStatus::known_discrepancy) > 0) status = CheckStatus::known_discrepancy;
+  if (!all_checks_pass(counts) || unexpected_endings > 0) status = CheckStatus::fails;
   Data data = object({{"verdict", verdict_text(counts, unexpected_endings)},
                       {"verdict_class", style_of(status).css_class},
                       {"overview", overview_text(results, families, counts)},
