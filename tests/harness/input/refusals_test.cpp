@@ -298,6 +298,8 @@ void check(const Refusal& refusal) {
   BOOST_TEST(contains(message, refusal.message), message);
 }
 
+const auto kRefusals = boost::unit_test::data::make(kModels) + kAnalyses + kMotions + kEffects;
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(unchanged_cases_are_accepted) {
@@ -307,19 +309,7 @@ BOOST_AUTO_TEST_CASE(unchanged_cases_are_accepted) {
         name);
 }
 
-BOOST_DATA_TEST_CASE(invalid_model_is_refused, kModels, refusal) {
-  check(refusal);
-}
-
-BOOST_DATA_TEST_CASE(invalid_analysis_is_refused, kAnalyses, refusal) {
-  check(refusal);
-}
-
-BOOST_DATA_TEST_CASE(invalid_motion_is_refused, kMotions, refusal) {
-  check(refusal);
-}
-
-BOOST_DATA_TEST_CASE(invalid_effects_are_refused, kEffects, refusal) {
+BOOST_DATA_TEST_CASE(invalid_case_is_refused, kRefusals, refusal) {
   check(refusal);
 }
 

@@ -104,6 +104,16 @@ BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
 }
 
+// Of four elements, the coarse mesh has two: 1.3 per half wave of the second mode.
+BOOST_AUTO_TEST_CASE(mode_with_few_elements_per_half_wave_has_order_two) {
+  Json json = cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  for (const int elements : {4, 8}) {
+    json["model"]["elements"] = elements;
+    BOOST_TEST(*estimated(json).of("frequency_Hz").order == (elements == 4 ? 2 : 4));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(motion_without_a_step_controls_its_error) {
   Json json = vibrating_cantilever();
   json["analysis"]["transient"].erase("step_s");
