@@ -42,12 +42,17 @@ def table(faults):
 def main():
     faults = seeding.load(sorted((ROOT / "tests/mutation/faults").glob("*.json")))
     noticed = sum(isinstance(f["expected"], list) for f in faults)
+    missed = sum(row_of(f).endswith("open") for f in faults)
+    silent = len(faults) - noticed - missed
+    label = f"{noticed} faults are detected, {silent} are equivalent or unobservable, {missed} is open"
+    bar = f'<span class="passes" style="flex-grow: {noticed}"></span><span style="flex-grow: {silent}"></span>'
+    bar += f'<span class="fails" style="flex-grow: {missed}"></span>'
     return page_section.write(
         "detection", "Detection of seeded faults",
         f"Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are detected."
         " Each counts for one family of cases that detects it, or for one suite of tests. Coefficients are changed by 1 %. Generic"
         " faults are drawn from all constants, operators, indices, conditions and terms of the solver.",
-        "Faults by family", table(faults))
+        "Faults by family", table(faults), figure=[f'  <div class="bar" role="img" aria-label="{label}">{bar}</div>'])
 
 
 if __name__ == "__main__":

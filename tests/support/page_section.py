@@ -5,14 +5,14 @@ import sys
 TEMPLATES = pathlib.Path(__file__).resolve().parent.parent.parent / "reports/templates"
 
 
-def write(name, title, words, summary, table, after=()):
+def write(name, title, words, summary, table, after=(), figure=()):
     """Writes reports/templates/NAME.mustache; with --check it writes nothing.
 
-    table and after are the lines of the table and below it.
+    figure, table and after are the lines above the paragraph, of the table and below it.
     Returns the exit status: 1 if --check finds a different section.
     """
     text = "\n".join([
-        "{{#%s}}<section id=\"%s\">" % (name, name), f"  <h2>{title}</h2>", f"  <p>{words}</p>", "  <details>",
+        "{{#%s}}<section id=\"%s\">" % (name, name), f"  <h2>{title}</h2>", *figure, f"  <p>{words}</p>", "  <details>",
         f"  <summary>{summary}</summary>",
         f'  <div class="scroll" role="region" aria-label="{summary}" tabindex="0">',
         '  <table class="results-table">', *table, "  </table>", "  </div>", *after, "  </details>",
