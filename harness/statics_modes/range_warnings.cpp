@@ -97,9 +97,9 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
                          "amplified as much as displacements"});
 }
 
-double resolved_frequency(const solver::System& system) {
+double resolved_frequency(const solver::Mesh& mesh) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const solver::FrameElement& e : system.mesh.frame) {
+  for (const solver::FrameElement& e : mesh.frame) {
     const double beta = kMaxWaveNumber / e.length;
     const double omega = beta * beta * std::sqrt(e.section.EI / e.section.mass_per_length);
     if (e.section.EI > 0) lowest = std::min(lowest, omega / (2 * std::numbers::pi));
@@ -109,7 +109,7 @@ double resolved_frequency(const solver::System& system) {
 
 void warn_of_wave_length(const solver::System& system, double frequency,
                          std::vector<Warning>& warnings) {
-  const double largest = kMaxWaveNumber * std::sqrt(frequency / resolved_frequency(system));
+  const double largest = kMaxWaveNumber * std::sqrt(frequency / resolved_frequency(system.mesh));
   if (!(largest > kMaxWaveNumber)) return;
   add_warning(warnings, {"the largest dimensionless wave number of an element", largest, "",
                          "above pi / 2 there are fewer than two elements per half wave of the "

@@ -41,7 +41,7 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
 inline constexpr double kMaxWaveNumber = 1.5708;
 /// Returns the highest frequency with at least two elements per half wave of bending [Hz]; infinite
 /// without bending.
-[[nodiscard]] double resolved_frequency(const solver::System& system);
+[[nodiscard]] double resolved_frequency(const solver::Mesh& mesh);
 /// Warns if the elements are too long for the highest mode.
 /// @param frequency  highest of the reported modes [Hz]
 void warn_of_wave_length(const solver::System& system, double frequency,

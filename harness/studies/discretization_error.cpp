@@ -277,9 +277,9 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
   // A finer companion has half the element size of the coarse mesh.
   double resolved = std::numeric_limits<double>::infinity();
   if (source == ErrorSource::mesh && inner_analysis_kind(document) == "modes")
-    resolved =
-        resolved_frequency(solver::assemble(model_at_path_start(read_case_model(document)))) /
-        (companion.finer ? 4 : 1);
+    resolved = resolved_frequency(
+                   solver::discretize(model_at_path_start(read_case_model(document))).mesh) /
+               (companion.finer ? 4 : 1);
   for (const auto& [name, quantity] : result.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;

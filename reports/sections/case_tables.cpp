@@ -139,7 +139,7 @@ TextTable inputs_table(const CaseInfo& info) {
     const std::string object = slash == std::string::npos ? "model" : path.substr(0, slash);
     if (std::exchange(last, object) != object) table.rows.push_back({object});
     const QuantityLabel input = parse_quantity(path.substr(slash + 1));
-    const std::string unit = std::isalpha(value[0]) != 0 ? "" : input.unit;  // a word has none
+    const std::string unit = value[0] >= 'a' ? "" : input.unit;  // a word has none
     table.rows.push_back({input.label, value, unit, source.empty() ? "this case" : source});
   }
   return table;
