@@ -122,6 +122,11 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
   return chosen;
 }
 
+bool is_in_catalogue(const fs::path& file) {
+  const fs::path folder = data_root() / "cases";
+  return std::ranges::mismatch(folder, fs::absolute(file)).in1 == folder.end();
+}
+
 Case load_named_case(const std::string& name_or_file) {
   const Catalogue catalogue;
   return load_case(catalogue.find_case(name_or_file), catalogue);

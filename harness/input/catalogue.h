@@ -44,6 +44,9 @@ class Catalogue {
   std::vector<std::pair<std::string, std::string>> files_;  ///< pairs of id and path, sorted by id
 };
 
+/// Returns true if a file is below the folder of the catalogue.
+[[nodiscard]] bool is_in_catalogue(const std::filesystem::path& file);
+
 /// Loads a case, given its name in the catalogue or its path.
 /// @throws InputError  as Catalogue::find_case and load_case.
 [[nodiscard]] Case load_named_case(const std::string& name_or_file);

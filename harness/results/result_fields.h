@@ -202,7 +202,7 @@ TRAMMEL_FIELDS(CaseInput, TRAMMEL_REQUIRED(value), TRAMMEL_OPTIONAL(source));
 TRAMMEL_KEY(CaseInfo, id);
 TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
                TRAMMEL_OPTIONAL(description, family, labels, stress_suite, figures, tables,
-                                analysis, hash, inputs));
+                                analysis, hash, inputs, file));
 TRAMMEL_FIELDS(Solver, TRAMMEL_REQUIRED(name, version, command));
 TRAMMEL_KEY(Reference, id);
 TRAMMEL_FIELDS(Reference, TRAMMEL_REQUIRED(title, kind, unit, values, uncertainty, citation, place),
@@ -212,8 +212,8 @@ TRAMMEL_FIELDS(UncertaintyCoverage,
                                 max_median_ratio, min_levels, passes));
 TRAMMEL_FIELDS(ClaimEntry, required("case", &S::case_id), TRAMMEL_REQUIRED(variant, name, value));
 TRAMMEL_FIELDS(ClaimInterpretation, TRAMMEL_REQUIRED(description, metric, unit, verdict, entries));
-TRAMMEL_FIELDS(Claim, TRAMMEL_REQUIRED(id, claim, place, verdict, expected, conclusion, undecidable,
-                                       interpretations));
+TRAMMEL_FIELDS(Claim, TRAMMEL_REQUIRED(id, title, claim, place, verdict, expected, conclusion,
+                                       undecidable, interpretations));
 TRAMMEL_FIELDS(PaperItem::Counterpart, required("case", &S::case_id),
                TRAMMEL_OPTIONAL(variant, quantity, figure, verdict));
 TRAMMEL_FIELDS(PaperItem, TRAMMEL_REQUIRED(id, section, what),

@@ -72,6 +72,7 @@ struct CaseInput {
 
 struct CaseInfo {
   std::string id, title, description, family, analysis;
+  std::string file;  ///< path as stated on the command line; empty for cases of the catalogue
   std::vector<std::string> labels;
   std::optional<StressSuiteEntry> stress_suite;
   std::vector<PlotRequest> figures;
@@ -110,7 +111,7 @@ struct ClaimInterpretation {
 
 /// A claim of the publication under examination. Its verdict is a text such as "confirmed".
 struct Claim {
-  std::string id, claim, place, verdict, expected, conclusion, undecidable;
+  std::string id, title, claim, place, verdict, expected, conclusion, undecidable;
   std::vector<ClaimInterpretation> interpretations;
 };
 

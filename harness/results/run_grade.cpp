@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "harness/base/find_or_add.h"
 #include "harness/results/check_groups.h"
 
 namespace trammel::results {
 
 Grade grade_of(const Run& run) {
   const auto has = [&](Verdict verdict) {
-    return std::ranges::any_of(run.checks,
-                               [&](const Check& check) { return check.verdict == verdict; });
+    return harness::contains(run.checks, verdict, &Check::verdict);
   };
   if (run.status == Status::error) return Grade::broken;
   if (run.status == Status::crashed) return Grade::crashed;

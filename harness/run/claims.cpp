@@ -215,13 +215,8 @@ std::string verdict_of(const std::vector<Interpretation>& interpretations, bool 
 
 results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
                               const std::vector<Run>& runs) {
-  results::Claim found{id,
-                       claim.text("claim"),
-                       claim.text("place"),
-                       "",
-                       claim.text("expected"),
-                       claim.text("conclusion"),
-                       "",
+  results::Claim found{id, claim.text("title"),    claim.text("claim"),      claim.text("place"),
+                       "", claim.text("expected"), claim.text("conclusion"), "",
                        {}};
   std::ranges::replace(found.expected, '-', ' ');
   if (claim.has("interpretations") == claim.has("undecidable"))

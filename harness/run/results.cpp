@@ -4,6 +4,8 @@
 #include <iterator>
 
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
+#include "harness/input/catalogue.h"
 #include "harness/judge/convergence.h"
 #include "harness/results/result_fields.h"
 
@@ -61,6 +63,7 @@ results::CaseInfo case_info(const Case& given) {
     json["variants"][variant]["title"] = given.variant_title(variant);
   auto info = results::from_json<results::CaseInfo>(json);
   info.id = given.id();
+  if (!is_in_catalogue(given.file)) info.file = given.file.string();
   const Document base = patched(given, kBaseVariant);
   if (base.value().contains("model")) add_inputs(base, JsonPointer("/model"), info);
   return info;
@@ -122,8 +125,7 @@ results::Results collect_results(std::vector<Run> runs, const std::vector<Case>&
   out.uncertainty_coverage = summarize_numerical_uncertainty(runs);
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {
-    const bool is_known = std::ranges::any_of(
-        out.cases, [&](const results::CaseInfo& info) { return info.id == run.case_id; });
+    const bool is_known = contains(out.cases, run.case_id, &results::CaseInfo::id);
     // A case that could not be read is missing from `cases`, so that its id is added.
     if (!is_known) {
       results::CaseInfo unread;

@@ -90,7 +90,7 @@ std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
 }
 
 const std::vector<double>& target_errors() {
-  static const std::vector<double> errors = {0.05, 0.01, 1e-3, 1e-6};
+  static const std::vector<double> errors = {0.05, 0.01, 1e-3, 1e-4, 1e-6};
   return errors;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -65,22 +67,16 @@ TextTable value_table(const std::string& title, const std::string& head,
   return table;
 }
 
-std::string numbers_text(const std::vector<std::size_t>& set) {
-  std::string text;
-  for (const std::size_t number : set) add_item(text, std::to_string(number));
-  return text;
-}
-
 TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) {
   TextTable table = value_table("Modes by shape (Hz)", "Mode", comparison);
   for (const ComparedModes& found : run.modes) {
-    std::vector<std::string> row = {numbers_text(found.modes[0])};
+    std::vector<std::string> row = {fmt::format("{}", fmt::join(found.modes[0], ", "))};
     for (std::size_t s = 0; s < found.values.size(); ++s) {
       std::string text = found.values[s] ? significant(*found.values[s], 6) : "no similar mode";
       if (found.last[s]) text += " to " + significant(*found.last[s], 6);
       if (found.errors[s]) text += " ± " + significant(*found.errors[s], 2);
       if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
-        text += " (mode " + numbers_text(found.modes[s]) + ")";
+        text += " (mode " + fmt::format("{}", fmt::join(found.modes[s], ", ")) + ")";
       row.push_back(text);
       if (s > 0) row.push_back(signed_percent(found.percent[s]));
     }

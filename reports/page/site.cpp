@@ -17,21 +17,21 @@ using Json = nlohmann::json;
 
 /// A page of sections. The key of a section is the name of its data and of its template.
 struct SectionPage {
-  const char *path, *title;
+  const char *path, *title, *short_title;
   std::vector<const char*> keys;
 };
 const std::vector<SectionPage>& section_pages() {
   static const std::vector<SectionPage> pages = {
-      {"summary.html", "Summary for an audit", {"audit"}},
-      {"paper.html", "The paper", {"claims", "known"}},
-      {"cost.html", "Accuracy and computing time", {"cost"}},
-      {"stress.html", "Numerical stability", {"stress_suite"}},
-      {"effects.html", "Effects", {"effects"}},
-      {"orders.html", "Orders of convergence", {"orders"}},
-      {"uncertainty.html", "Validation uncertainty", {"validation_uncertainty"}},
-      {"coverage.html", "Coverage", {"coverage"}},
-      {"faults.html", "Seeded faults and rounding", {"detection", "certification"}},
-      {"environment.html", "Environment", {"history", "environment"}}};
+      {"summary.html", "Summary for an audit", "Summary", {"audit"}},
+      {"paper.html", "The paper", "Paper", {"claims", "known"}},
+      {"cost.html", "Accuracy and computing time", "Cost", {"cost"}},
+      {"stress.html", "Numerical stability", "Stability", {"stress_suite"}},
+      {"effects.html", "Effects", "Effects", {"effects"}},
+      {"orders.html", "Orders of convergence", "Orders", {"orders"}},
+      {"uncertainty.html", "Validation uncertainty", "Uncertainty", {"validation_uncertainty"}},
+      {"coverage.html", "Coverage", "Coverage", {"coverage"}},
+      {"faults.html", "Seeded faults and rounding", "Faults", {"detection", "certification"}},
+      {"environment.html", "Environment", "Environment", {"history", "environment"}}};
   return pages;
 }
 
@@ -86,7 +86,9 @@ Data index_contents(const Data& index) {
   out.push_back(object({{"title", "Overview"}, {"link", "index.html"}}));
   for (const SectionPage& page : section_pages())
     if (has_content(index, page))
-      out.push_back(object({{"title", page.title}, {"link", page.path}}));
+      out.push_back(object({{"title", page.short_title}, {"link", page.path}}));
+  if (index.get("has_runs")->is_true())
+    out.push_back(object({{"title", "Search"}, {"link", "index.html#find"}}));
   return out;
 }
 
@@ -134,7 +136,7 @@ std::string check_list(const std::vector<Family>& families) {
                slug(worst.name)});
         }
       json["cases"].push_back(
-          {info->id, info->title, family.title, info->labels, case_link(info->id)});
+          {run_name(*info), info->title, family.title, info->labels, case_link(info->id)});
     }
   return "window.trammelChecks = " + json.dump(-1, ' ', false, Json::error_handler_t::replace) +
          ";\n";
@@ -153,7 +155,6 @@ Data titled_index(const Data& index) {
   const bool runs = index.get("has_runs")->is_true();
   Data data = titled(runs ? "Verification and validation report" : "Accuracy and computing time");
   set(data, {{"subtitle", "Flexible-link planar parallel manipulators"}});
-  if (runs) data.set("page_title", *index.get("summary")->get("verdict"));
   return data;
 }
 
@@ -206,11 +207,15 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   for (std::size_t f = 0; f < families.size(); ++f) {
     const std::string link = family_link(families[f].id);
     add(link, titled_by(sections[f], "family_title"), body_of("family", sections[f]));
-    for (const CaseInfo* info : families[f].cases) {
-      const Data data = case_section(*info, families[f], results);
+    const auto& cases = families[f].cases;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Data data = case_section(*cases[i], families[f], results);
       Data title = titled_by(data, "case_title");
-      set(title, {{"above", families[f].title}, {"above_link", link}});
-      add(case_link(info->id), title, body_of("case", data));
+      set(title, {{"above", families[f].title},
+                  {"above_link", link},
+                  {"previous", i > 0 ? case_link(cases[i - 1]->id) : ""},
+                  {"next", i + 1 < cases.size() ? case_link(cases[i + 1]->id) : ""}});
+      add(case_link(cases[i]->id), title, body_of("case", data));
     }
   }
   if (!results.references.empty())

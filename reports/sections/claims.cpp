@@ -11,8 +11,6 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxClaim = 60;  ///< largest number of characters of a claim in the table
-
 /// CSS class and symbol of a verdict on a claim. The symbol shows the verdict without color.
 struct VerdictStyle {
   const char *verdict, *css_class, *sign;
@@ -87,7 +85,7 @@ Data claim_data(const Claim& claim, const Results& results) {
       claim.verdict,
       {{"id", claim.id},
        {"claim", claim.claim},
-       {"short", shortened(claim.claim, kMaxClaim)},
+       {"short", claim.title},
        {"deciding", measured_range_text(deciding)},
        {"meaning", deciding.description},
        {"place", claim.place},

@@ -30,6 +30,10 @@ std::string reference_link(const std::string& id) {
   return "references.html#ref-" + slug(id);
 }
 
+std::string run_name(const CaseInfo& info) {
+  return info.file.empty() ? info.id : harness::shell_quoted(info.file);
+}
+
 Data figure_data(const Figure& figure) {
   return object({{"id", figure.id},
                  {"figure_title", figure.title},
@@ -85,6 +89,7 @@ Data case_entry(const CaseInfo& info, const Family& family) {
   return with_status(worst_status(runs),
                      {{"case_link", case_link(info.id)},
                       {"case_id", info.id},
+                      {"run_name", run_name(info)},
                       {"case_title", info.title},
                       {"short_title", family.short_title(info)},
                       {"variants_count", runs.size() > 1 ? count(runs.size(), "variant") : ""},

@@ -26,6 +26,13 @@ namespace trammel::reports {
 [[nodiscard]] std::string family_link(const std::string& id);
 [[nodiscard]] std::string reference_link(const std::string& id);
 
+/// Returns the name of a case of the catalogue, or the path of another case, for a command line.
+[[nodiscard]] std::string run_name(const CaseInfo& info);
+
+/// Returns "± 3.2 %": the expanded validation uncertainty of a check relative to its target.
+/// Returns "" if it is unknown.
+[[nodiscard]] std::string uncertainty_text(const Run& run, const Check& check);
+
 /// Returns the data of a drawn figure for the template figure.mustache.
 [[nodiscard]] Data figure_data(const Figure& figure);
 

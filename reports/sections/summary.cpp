@@ -148,13 +148,6 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
   return known;
 }
 
-/// Returns "± 3.2 %": the expanded validation uncertainty of a check relative to its target.
-std::string uncertainty_text(const Run& run, const Check& check) {
-  const Comparison* found = find_comparison(run, check);
-  if (!found || !check.expected) return "–";
-  return "± " + percent_text(2 * *found->u_val / std::abs(*check.expected), 2, false);
-}
-
 Data known_data(const KnownDiscrepancy& known, const std::string& title, const Results& results) {
   const Check& check = known.largest();
   const Reference* reference = results.reference(check.reference);
@@ -320,6 +313,12 @@ Data study_figures(const StudyFigures& studies) {
 }
 
 }  // namespace
+
+std::string uncertainty_text(const Run& run, const Check& check) {
+  const Comparison* found = find_comparison(run, check);
+  if (!found || !check.expected) return "";
+  return "± " + percent_text(2 * *found->u_val / std::abs(*check.expected), 2, false);
+}
 
 Data discrepancy_section(const Results& results, const std::vector<Family>& families) {
   const Data known = known_by_family(results, families);

@@ -108,7 +108,7 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
       check_status(run),
       {{"variant", many ? info.variant_title(run.variant) : ""},
        {"variant_anchor", slug(run.variant)},
-       {"run_words", info.id + (run.variant == "base" ? "" : " --variant " + run.variant)},
+       {"run_words", run_name(info) + (run.variant == "base" ? "" : " --variant " + run.variant)},
        {"ending", run.status == Status::solved ? "" : to_string(run.status)},
        {"reason", run.reason}});
 }
@@ -152,7 +152,9 @@ Data headlines(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& 
     std::string entry =
         w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
-    groups.push_back(group_of_worst(*w.check, entry, rows));
+    Data group = group_of_worst(*w.check, entry, rows);
+    set(group, {{"uncertainty", uncertainty_text(*w.run, *w.check)}});
+    groups.push_back(group);
   }
   return groups;
 }

@@ -83,11 +83,6 @@ int distinguishing_digits(double a, double b) {
   return digits > 10 ? 6 : static_cast<int>(std::max(digits, 4.0));
 }
 
-std::string shortest_decimal(double x) {
-  std::array<char, 40> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr};
-}
-
 std::string shortest_decimal(double x, int digits) {
   return format(x, std::chars_format::general, digits);
 }

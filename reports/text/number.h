@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/base/number.h"
+#include "harness/base/text.h"
 
 namespace trammel::reports {
 
@@ -35,8 +36,7 @@ namespace trammel::reports {
 /// than a pixel.
 inline constexpr int kSampleDigits = 7;
 
-/// Returns the shortest text that reads back as the same double, independent of the locale.
-[[nodiscard]] std::string shortest_decimal(double x);
+using harness::shortest_decimal;
 
 /// Returns the number with at most `digits` significant digits.
 [[nodiscard]] std::string shortest_decimal(double x, int digits);

@@ -6,6 +6,7 @@
 #include <regex>
 #include <utility>
 
+#include "harness/base/find_or_add.h"
 #include "harness/base/quantity.h"
 #include "reports/text/number.h"
 
@@ -19,21 +20,6 @@ std::string words(const std::string& key) {
     if (name.ends_with(direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);
   return name;
-}
-
-/// Returns whether a unit accepts SI prefixes.
-bool takes_prefix(const std::string& unit) {
-  static const std::array<const char*, 10> plain = {"m",   "N",  "Pa", "s", "Hz",
-                                                    "N·m", "kg", "J",  "W", "rad"};
-  return std::ranges::find(plain, unit) != plain.end();
-}
-
-/// Returns whether the name of another quantity follows the colon in the name of a quantity, as in
-/// relative_error:frequency_Hz.
-bool is_of_a_quantity(const std::string& base) {
-  static const std::array<const char*, 4> names = {"relative_error", "roundoff",
-                                                   "error_over_roundoff", "min_error_at"};
-  return std::ranges::find(names, base) != names.end();
 }
 
 }  // namespace
@@ -56,6 +42,9 @@ std::string display_unit(const std::string& unit) {
 }
 
 QuantityLabel parse_quantity(const std::string& name) {
+  // The name of another quantity follows the colon, as in relative_error:frequency_Hz.
+  static const auto of_others =
+      words_in("relative_error roundoff error_over_roundoff min_error_at");
   QuantityLabel quantity;
   const std::size_t colon = name.find(':');
   const auto [base, unit] = harness::split_unit(name);
@@ -66,7 +55,8 @@ QuantityLabel parse_quantity(const std::string& name) {
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");
-  } else if (quantity.subject.find(':') != std::string::npos || is_of_a_quantity(base)) {
+  } else if (quantity.subject.find(':') != std::string::npos ||
+             harness::contains(of_others, base)) {
     quantity.subject = to_text(parse_quantity(quantity.subject));
   }
   quantity.label =
@@ -80,7 +70,7 @@ std::string to_text(const QuantityLabel& quantity) {
 
 Scale readable_scale(const std::string& unit, double largest) {
   if (largest <= 0 || !std::isfinite(largest)) return {1, unit};
-  if (takes_prefix(unit) && unit != "kg") {
+  if (harness::contains(words_in("m N Pa s Hz N·m J W rad"), unit)) {  // units with SI prefixes
     // Lengths are in meters from 0.2 m upward, and in millimeters below.
     const double small = unit == "m" ? 0.2 : 1;
     static const std::array<std::pair<double, const char*>, 6> prefixes = {

@@ -18,7 +18,7 @@ namespace {
 Document claims_of(const Json& readings, const std::string& expected,
                    const std::string& together = "parts") {
   Json json = Json::parse(R"({"title": "A paper", "source": "someone-2020", "claims": {"1": {
-    "claim": "It holds.", "place": "Page 1", "conclusion": "So it is."}}})");
+    "title": "It holds", "claim": "It holds.", "place": "Page 1", "conclusion": "So it is."}}})");
   json["claims"]["1"].update(
       {{"interpretations", readings}, {"combine_as", together}, {"expected", expected}});
   Document document;

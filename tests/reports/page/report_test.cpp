@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   const auto claim = [](const char* id, const char* words, const char* verdict,
                         const char* expected, const char* undecidable,
                         const std::vector<ClaimInterpretation>& readings) {
-    return Claim{id,          words,   "Abstract", verdict, expected, "This <b>follows</b>.",
+    return Claim{id,          words,   words, "Abstract", verdict, expected, "This <b>follows</b>.",
                  undecidable, readings};
   };
   const ClaimEntry low{"vpcs-sdll02", "base", "exact", 1},
