@@ -100,8 +100,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
 
 const AnalysisKind& find_analysis(const std::string& name) {
   const auto& kinds = analysis_kinds();
-  const auto found =
-      std::ranges::find_if(kinds, [&](const AnalysisKind& kind) { return kind.name == name; });
+  const auto found = std::ranges::find(kinds, name, &AnalysisKind::name);
   if (found == kinds.end()) throw std::out_of_range("no analysis '" + name + "'");
   return *found;
 }

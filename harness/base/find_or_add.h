@@ -1,17 +1,19 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
+#include <functional>
 #include <ranges>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace trammel::harness {
 
-template <typename Range, typename Value>
-requires std::equality_comparable_with<std::ranges::range_value_t<Range>, Value>
-bool contains(const Range& range, const Value& value) {
-  return std::ranges::find(range, value) != std::ranges::end(range);
+template <typename Range, typename Value, typename Projection = std::identity>
+requires(!std::is_same_v<Range, std::string>) bool contains(const Range& range, const Value& value,
+                                                            Projection projection = {}) {
+  return std::ranges::find(range, value, projection) != std::ranges::end(range);
 }
 
 /// Returns the first item that satisfies the predicate `is_match`. If there is none, appends

@@ -45,8 +45,7 @@ Side side_of(const Case& given, const std::string& variant) {
 std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   for (const std::string& name : names) {
-    const auto [file, chosen] = split_case_name(name);
-    const Case given = load_named_case(file);
+    const auto [given, chosen] = load_case_variant(name);
     std::vector<std::string> variants = {chosen.empty() ? kBaseVariant : chosen};
     if (names.size() == 1 && chosen.empty()) variants = given.variants();
     for (const std::string& variant : variants) {

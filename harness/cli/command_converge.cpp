@@ -72,9 +72,8 @@ void print(const Convergence& found) {
 }  // namespace
 
 int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const auto [name, chosen] = split_case_name(options.word);
+  const auto [given, chosen] = load_case_variant(options.word);
   const std::string variant = options.variant.empty() ? chosen : options.variant;
-  const Case given = load_named_case(name);
   if (!given.document.value().contains("sweeps"))
     throw given.document.error("", "expected 'sweeps', which define the refinement");
   if (!variant.empty()) (void)patched(given, variant);

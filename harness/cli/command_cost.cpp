@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "harness/base/errors.h"
@@ -24,24 +25,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the cost studies of the catalogue whose name or family is `word`.
-std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
-  std::vector<fs::path> found;
+/// Files of the cost studies of the catalogue, by name and by family.
+std::multimap<std::string, fs::path> catalogue_studies() {
+  std::multimap<std::string, fs::path> studies;
   for (const fs::path& file : cost_study_files()) {
-    const Json json = read_json(file);
-    const std::string id = file.stem().string(), family = json.value("family", "");
-    if (word == id || word == family) found.push_back(file);
-    known.push_back(id);
-    known.push_back(family);
+    studies.emplace(file.stem().string(), file);
+    studies.emplace(read_json(file).value("family", ""), file);
   }
-  return found;
+  return studies;
 }
 
-fs::path find_one(const std::string& word, const std::vector<std::string>& known) {
+fs::path find_one(const std::string& word) {
   try {
     return Catalogue().find_case(word);
   } catch (const InputError&) {
     if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
+    std::vector<std::string> known;
+    for (const auto& item : catalogue_studies()) known.push_back(item.first);
     const std::string hint = did_you_mean(word, known);
     if (hint.empty()) throw;
     throw InputError(
@@ -59,12 +59,12 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     if (seen.insert(fs::weakly_canonical(file)).second)
       studies.push_back(load_cost_study(file, extent, references));
   };
+  const auto named = catalogue_studies();
   for (const std::string& word : options.words) {
-    std::vector<std::string> known;
-    const std::vector<fs::path> named = studies_named(word, known);
-    std::ranges::for_each(named, add);
-    if (!named.empty()) continue;
-    const fs::path file = find_one(word, known);
+    const auto [begin, end] = named.equal_range(word);
+    std::for_each(begin, end, [&](const auto& item) { add(item.second); });
+    if (begin != end) continue;
+    const fs::path file = find_one(word);
     if (is_cost_study(file)) {
       add(file);
       continue;
@@ -146,7 +146,7 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
                                   const References& references) {
   if (options.words.size() != 1 || !options.sweeps.empty())
     throw InputError("--accuracy: expected a single case, and no --sweep");
-  const Case given = load_case(find_one(options.words.front(), {}));
+  const Case given = load_case(find_one(options.words.front()));
   const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
   const AccuracyRequest request{options.accuracy, options.quantities, options.time_limit_s};
   const AccuracySearch search = search_accuracy(patched(given, variant), request, references);

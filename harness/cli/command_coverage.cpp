@@ -14,8 +14,9 @@ namespace {
 
 using results::CoverageRow;
 
-void print_group(const std::vector<CoverageRow>& rows, const std::string& group, bool gaps) {
-  Rows table({group.c_str(), "evidence", "judged", "series", "reason"});
+/// Prints the features of a group without independent evidence, and the numbers of all features.
+void print_group(const std::vector<CoverageRow>& rows, const std::string& group) {
+  Rows table({group.c_str(), "reason"});
   int verified = 0, stated = 0, open = 0, all = 0;
   for (const CoverageRow& row : rows) {
     if (row.group != group) continue;
@@ -23,10 +24,7 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group,
     verified += row.is_verified() ? 1 : 0;
     stated += row.reason.empty() ? 0 : 1;
     open += row.reason.starts_with("open") ? 1 : 0;
-    if (gaps && row.is_verified()) continue;
-    const auto number = [&](int n) { return row.series > 0 ? Json(n) : Json(); };
-    table.add({row.feature, row.evidence.empty() ? Json("none") : Json(row.evidence),
-               number(row.judged), number(row.series), row.reason});
+    if (!row.is_verified()) table.add({row.feature, row.reason});
   }
   if (!table.empty()) table.print(std::cout);
   std::cout << group << ": " << verified << " of " << all << " with independent evidence, "
@@ -47,7 +45,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   if (options.json) {
     std::cout << format_json(results::to_json(rows));
   } else {
-    for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group, options.gaps);
+    for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group);
   }
   const bool complete = std::ranges::all_of(
       rows, [](const CoverageRow& row) { return row.is_verified() || !row.reason.empty(); });

@@ -13,7 +13,6 @@
 #include "harness/input/catalogue.h"
 #include "harness/printing/printing.h"
 #include "harness/results/result_fields.h"
-#include "harness/results/unfinished_folder.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"
@@ -129,21 +128,13 @@ void print_study(const EffectStudy& study) {
             << " of it for the selection\n";
 }
 
-[[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
-  throw InputError(id + ": the model with all effects has no solution (" +
-                   study.full.outcome.reason + ")");
-}
-
 /// Writes results.json and a page with the effects selected in these cases.
 void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
                   const Renderers& renderers) {
   results::Results results = collect_results({}, {}, References());
   results.effect_scenes = std::move(scenes);
   const OutputLock lock(options.out);
-  const auto unfinished = std::filesystem::path(options.out) / results::kUnfinishedFolder;
-  std::filesystem::create_directories(unfinished);
-  write_results(results, unfinished);
-  const auto page = renderers.report(results, options.out);
+  const auto page = write_pages(results, options.out, renderers);
   if (!options.json) std::cout << "page in " << page.string() << '\n';
 }
 
@@ -169,8 +160,8 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
     throw InputError("trammel: either cases or --label is required (see trammel effects --help)");
   std::vector<EffectCase> cases;
   for (const std::string& name : options.words) {
-    const Case given = load_named_case(name);
-    cases.push_back({given.id(), patched(given, variant)});
+    const auto [given, chosen] = load_case_variant(name);
+    cases.push_back({given.id(), patched(given, chosen.empty() ? variant : chosen)});
   }
   if (options.words.empty()) cases = effect_cases(options.labels, variant);
   if (cases.empty()) throw InputError("no case with these labels supports effects");
@@ -179,15 +170,18 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
 
 int print_one(const EffectCase& scene, const CommandOptions& options) {
   const EffectStudy study = study_effects(scene.document, {options.tolerance, options.repeats});
-  if (options.json) {
-    if (!study.full.outcome.solved()) refuse_unsolved(scene.id, study);
-    std::cout << format_json(study_json(scene.id, analysis_kind(scene.document), study), 2);
-    return holds(study) ? 0 : 1;
+  if (!options.json) {
+    std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';
+    print_effects(study.choice);
   }
-  std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';
-  print_effects(study.choice);
-  if (!study.full.outcome.solved()) refuse_unsolved(scene.id, study);
-  print_study(study);
+  if (!study.full.outcome.solved())
+    throw InputError(scene.id + ": the model with all effects has no solution (" +
+                     study.full.outcome.reason + ")");
+  if (options.json) {
+    std::cout << format_json(study_json(scene.id, analysis_kind(scene.document), study), 2);
+  } else {
+    print_study(study);
+  }
   return holds(study) ? 0 : 1;
 }
 

@@ -33,12 +33,11 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
 
 int export_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   ExportChoice choice;
-  const auto [name, variant] = split_case_name(options.word);
+  const auto [given, variant] = load_case_variant(options.word);
   if (!variant.empty()) choice.variant = variant;
   if (!options.variant.empty()) choice.variant = options.variant;
   if (!options.sweeps.empty()) choice.sweep = options.sweeps.front();
   if (options.level >= 0) choice.level = static_cast<std::size_t>(options.level);
-  const Case given = load_named_case(name);
   if (!options.matrices.empty()) {
     const Document document = chosen_document(given, choice);
     write_system_matrices(document, exported_scene(document), options.matrices);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <memory>
+#include <set>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
@@ -21,22 +23,6 @@ namespace trammel::harness {
 namespace {
 
 using results::Grade;
-
-/// Ends processes left behind by adapters when the command ends, for any reason.
-class Descendants {
- public:
-  Descendants() { adopt_descendants(); }
-  ~Descendants() { kill_descendants(); }
-  Descendants(const Descendants&) = delete;
-  Descendants& operator=(const Descendants&) = delete;
-};
-
-/// Returns true for cases that test only trammel's evaluation of checks. Such cases do not apply to
-/// other codes.
-bool is_control(const Case& one) {
-  const std::vector<std::string> labels = one.labels();
-  return contains(labels, "control");
-}
 
 /// Returns the reason for a grade other than `agrees` and `off`: the reason of the run, or else the
 /// message of a check without a computed value.
@@ -98,11 +84,15 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
                   std::filesystem::absolute(options.out) / "calls",
                   {options.max_time_s, options.memory_bytes, options.max_disk_bytes}};
   std::vector<Case> cases = select_cases(options);
-  if (options.words.empty()) std::erase_if(cases, is_control);
+  // Cases with this label test only the evaluation of checks and do not apply to other codes.
+  if (options.words.empty())
+    std::erase_if(cases, [](const Case& one) { return contains(one.labels(), "control"); });
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;
-  const Descendants ended;
+  adopt_descendants();
+  // Ends processes left behind by adapters when the command ends, for any reason.
+  const std::shared_ptr<void> guard(nullptr, [](void*) { kill_descendants(); });
   Progress progress("runs");
   RunOptions run_options{options.variant, options.jobs, TrackedQuantities::named, {}};
   run_options.progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
@@ -123,9 +113,11 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
   require_uninterrupted(found.runs);
-  const bool failure = std::ranges::any_of(
-      found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
-  return failure ? 1 : 0;
+  std::set<Grade> grades;
+  for (const results::Run& run : found.runs) grades.insert(results::grade_of(run));
+  const bool is_judged = grades.contains(Grade::agrees) || grades.contains(Grade::off);
+  if (!is_judged) std::cerr << "no number of the adapter could be judged\n";
+  return std::ranges::any_of(grades, results::is_failure) ? 1 : 0;
 }
 
 }  // namespace trammel::harness

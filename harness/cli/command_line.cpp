@@ -16,6 +16,7 @@
 
 #include "harness/base/environment.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
@@ -130,7 +131,8 @@ const std::vector<Option>& all_options() {
       {"--json", &Options::json,
        "Print JSON; commands that run cases or studies print results.json"},
       {"--csv", &Options::csv, "Print CSV with a row for each number"},
-      {"-q,--quiet", &Options::quiet, "Print only runs that fail, and the summary"},
+      {"-q,--quiet", &Options::quiet,
+       "Print only runs that fail or have warnings, and the summary"},
       {"--vtk", &Options::vtk,
        "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
       {"--pdf", &Options::pdf,
@@ -154,16 +156,18 @@ const std::vector<Option>& all_options() {
        "Estimate discretization errors also for cases of the catalogue"},
       {"--no-errors", &Options::no_errors, "Estimate no discretization errors"},
       {"--warn-above", &Options::warn_above,
-       "Relative discretization error above which a warning is printed", within(0.0, 1e6)},
+       "Relative discretization error above which a warning is printed, also for cases of the "
+       "catalogue; default: 0.01, without the catalogue",
+       within(1e-15, 1e6)},
       {"--accuracy", &Options::accuracy,
-       "Choose mesh and step so that the estimated relative error is below this value",
+       "Choose mesh and step so that the estimated relative errors of frequencies, load factors, "
+       "displacements and positions are below this value",
        within(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
-       "Quantity to which --accuracy applies, such as displacement_y_m:B or displacement_y_m"},
+       "Quantity to which --accuracy applies instead, such as reaction_y_N or reaction_y_N:A"},
       {"--time-limit", &Options::time_limit_s, "Time limit of the search by --accuracy [s]",
        within(1.0, 1e6)},
       {"--results", &Options::builds, "results.json of the same cases computed by another build"},
-      {"--gaps", &Options::gaps, "Print only rows without independent evidence"},
       {"--max-time", &Options::max_time_s, "Wall time limit of one call of the adapter [s]",
        within(0.01, 1e6)},
       {"--max-disk", &Options::max_disk_bytes,
@@ -173,8 +177,10 @@ const std::vector<Option>& all_options() {
   return options;
 }
 
-constexpr std::pair<const char*, const char*> kExclusive[] = {
-    {"--shard", "--store"}, {"--errors", "--no-errors"}, {"--csv", "--json"}};
+constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
+                                                              {"--errors", "--no-errors"},
+                                                              {"--warn-above", "--no-errors"},
+                                                              {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
@@ -199,7 +205,7 @@ constexpr CommandEntry kCommands[] = {
      "trammel-cost"},
     {"certify", certify_command, "cases --label --label-any --results --jobs --json --max-memory"},
     {"claims", claims_command, "results --jobs --json"},
-    {"coverage", coverage_command, "results --gaps --json"},
+    {"coverage", coverage_command, "results --json"},
     {"paper", paper_command, "results --json"},
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
@@ -255,8 +261,7 @@ class CommandLine {
   }
 
   static bool is_command(const std::string& name) {
-    return std::ranges::any_of(kCommands,
-                               [&](const CommandEntry& command) { return name == command.name; });
+    return contains(kCommands, name, &CommandEntry::name);
   }
 
   /// @param names  names of help topics, which are allowed in addition to commands
@@ -288,6 +293,9 @@ class CommandLine {
       CLI::Option *first = sub->get_option_no_throw(one), *second = sub->get_option_no_throw(other);
       if (first != nullptr && second != nullptr) first->excludes(second);
     }
+    for (const char* of_search : {"--quantity", "--time-limit"})
+      if (CLI::Option* option = sub->get_option_no_throw(of_search))
+        option->needs(sub->get_option("--accuracy"));
     command_ = [this, &command] { return command.run(options_, renderers_); };
   }
 

@@ -18,6 +18,7 @@
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
 #include "harness/printing/printing.h"
+#include "harness/readers/discretization.h"
 #include "harness/results/quantity_definitions.h"
 #include "harness/run/run.h"
 #include "harness/scene/case_model.h"
@@ -98,20 +99,17 @@ void print_reference(const CitedReference& cited) {
     for (const std::string& text : texts) std::cout << wrapped(label + text, "      ");
 }
 
-void describe_effects(const Case& given) {
-  const Document base = patched(given, kBaseVariant);
-  if (!supports_effects(base)) return;
-  const EffectChoice choice =
-      rethrow_as_input_error(base, [&] { return choose_effects(base, read_case_model(base)); });
-  print_effects(choice);
+void describe_effects(const Document& document) {
+  if (!supports_effects(document)) return;
+  print_effects(rethrow_as_input_error(
+      document, [&] { return choose_effects(document, read_case_model(document)); }));
 }
 
-void describe_checks(const Case& given, const References& references) {
-  const Document base = patched(given, kBaseVariant);
-  const std::vector<Check> checks = read_checks(base, kBaseVariant, given.variants());
+void describe_checks(const Document& document, const std::vector<Check>& checks,
+                     const References& references) {
   if (checks.empty()) return;
   std::cout << "\nChecks\n";
-  const JsonView places = JsonView(base)["checks"];
+  const JsonView places = JsonView(document)["checks"];
   for (const Check& check : checks) {
     std::cout << "  " << check.name << "  (" << to_string(check.role) << ")\n"
               << wrapped(describe_check(check), "      ") << wrapped(check.why, "      ");
@@ -119,12 +117,11 @@ void describe_checks(const Case& given, const References& references) {
   }
 }
 
-void describe_inputs(const Case& given, const References& references) {
-  const Document base = patched(given, kBaseVariant);
-  if (!base.value().contains("uncertainty")) return;
+void describe_inputs(const Document& document, const References& references) {
+  if (!document.value().contains("uncertainty")) return;
   std::cout << "\nInput uncertainties\n";
   Rows table({"input", "half width", "", "why"});
-  for (const results::UncertainInput& input : uncertain_inputs(base, references))
+  for (const results::UncertainInput& input : uncertain_inputs(document, references))
     table.add({input.name, *input.half_width,
                input.nominal ? "only if nominal lengths are taken literally" : "", input.why});
   table.print(std::cout, "  ");
@@ -207,11 +204,10 @@ Rows analysis_rows() {
 std::string meaning_of(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
   const auto* found = results::find_quantity_definition(name, analysis);
-  if (found == nullptr && analysis == "study") {
-    const Json& studied = document.value().at("analysis").at("study").at("analysis");
-    found = results::find_quantity_definition(name, studied.begin().key());
-    if (found == nullptr) found = results::find_quantity_definition("parameter", analysis);
-  }
+  if (found == nullptr)
+    found = results::find_quantity_definition(name, inner_analysis_kind(document));
+  if (found == nullptr && analysis == "study")
+    found = results::find_quantity_definition("parameter", analysis);
   return found == nullptr ? "" : found->meaning;
 }
 
@@ -246,33 +242,33 @@ int list_command(const CommandOptions& options, const Renderers& /*renderers*/) 
 }
 
 int describe_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const auto [name, chosen] = split_case_name(options.word);
-  const Case given = load_named_case(name);
-  const Document base = patched(given, chosen.empty() ? kBaseVariant : chosen);
+  const auto [given, chosen] = load_case_variant(options.word);
+  const std::string variant = chosen.empty() ? kBaseVariant : chosen;
+  const Document document = patched(given, variant);
   if (options.json) {
-    Json document = (chosen.empty() ? given.document : base).value();
-    document["file"] = given.file.string();
-    std::cout << format_json(document);
+    Json json = (chosen.empty() ? given.document : document).value();
+    json["file"] = given.file.string();
+    std::cout << format_json(json);
     return 0;
   }
-  require_memory(base);
+  require_memory(document);
   std::cout << given.id() << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
-            << describe_model(base) << "\nAnalysis  " << analysis_kind(base) << " "
-            << base.value().at("analysis").begin()->dump() << "\nFile      " << given.file.string()
-            << '\n';
+            << describe_model(document) << "\nAnalysis  " << analysis_kind(document) << " "
+            << document.value().at("analysis").begin()->dump() << "\nFile      "
+            << given.file.string() << '\n';
   if (given.variants().size() > 1) {
     std::cout << "\nVariants\n";
     Rows table({"name", "title"});
-    for (const std::string& variant : given.variants())
-      if (variant != kBaseVariant) table.add({variant, given.variant_title(variant)});
+    for (const std::string& other : given.variants())
+      if (other != kBaseVariant) table.add({other, given.variant_title(other)});
     table.print(std::cout, "  ");
   }
   const References references;
   describe_sweeps(given);
-  describe_effects(given);
-  describe_inputs(given, references);
-  describe_checks(given, references);
+  describe_effects(document);
+  describe_inputs(document, references);
+  describe_checks(document, read_checks(document, variant, given.variants()), references);
   const auto used = references.requested_references();
   if (!used.empty()) std::cout << "\nReferences\n";
   for (const auto& item : used) print_reference(item.second);
@@ -297,8 +293,7 @@ int references_command(const CommandOptions& options, const Renderers& /*rendere
   for (const auto& item : places) known.push_back(item.first);
   for (const std::string& name : names.empty() ? known : names) {
     if (places.count(name) == 0)
-      throw InputError("expected a stored reference (got " + quoted(printable(name)) + ")" +
-                       did_you_mean(name, known));
+      throw InputError(unknown_name_message("a stored reference", name, known));
     (void)library.add(places.at(name));
   }
   std::vector<CitedReference> all;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "harness/base/errors.h"
 #include "harness/base/find_or_add.h"
@@ -85,10 +86,11 @@ RunOptions run_options(const CommandOptions& given, Progress& progress) {
   options.resume = given.resume;
   options.any_machine = given.any_machine;
   options.memory_bytes = given.memory_bytes;
-  options.errors = given.all_errors  ? ErrorWish::all
-                   : given.no_errors ? ErrorWish::none
-                                     : ErrorWish::own_cases;
-  options.warn_above = given.warn_above;
+  const bool has_limit = given.warn_above > 0;
+  options.errors = given.all_errors || has_limit ? ErrorWish::all
+                   : given.no_errors             ? ErrorWish::none
+                                                 : ErrorWish::own_cases;
+  if (has_limit) options.warn_above = given.warn_above;
   options.accuracy = given.accuracy;
   options.quantities = given.quantities;
   return options;
@@ -103,14 +105,10 @@ std::vector<Run> compute(const Selection& selection, const References& reference
 }
 
 void print_run_errors(const std::vector<Run>& runs) {
-  std::vector<std::string> told;
-  for (const Run& run : runs) {
-    if (run.fault == results::Fault::none) continue;
-    // Variants of one case often fail with the same message, which is printed once.
-    if (contains(told, run.reason)) continue;
-    told.push_back(run.reason);
-    std::cerr << run.reason << '\n';
-  }
+  std::set<std::string> printed;  // variants of one case often fail with the same message
+  for (const Run& run : runs)
+    if (run.fault != results::Fault::none && printed.insert(run.reason).second)
+      std::cerr << run.reason << '\n';
 }
 
 /// Selects the cases with the given names or labels; all cases of the catalogue if the options
@@ -129,11 +127,9 @@ Selection select(const CommandOptions& options) {
   Selection selection = load(files, catalogue);
   for (Case& test_case : selection.cases) test_case.chosen_variants = chosen[test_case.file];
   if (!options.labels.empty() || !options.any_labels.empty())
-    for (Case& test_case : catalogue.load(options.labels, options.any_labels)) {
-      const bool there = std::ranges::any_of(
-          selection.cases, [&](const Case& other) { return other.id() == test_case.id(); });
-      if (!there) selection.cases.push_back(std::move(test_case));
-    }
+    for (Case& test_case : catalogue.load(options.labels, options.any_labels))
+      if (!contains(selection.cases, test_case.id(), &Case::id))
+        selection.cases.push_back(std::move(test_case));
   require_distinct(selection.cases);
   require_variants(selection.cases, options.variant);
   return selection;
@@ -245,8 +241,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
     const results::Results results = load_results(files.front());
     if (!results.missing.empty())
       std::cerr << files.front().string() << ": " << results.missing << '\n';
-    std::filesystem::remove_all(std::filesystem::path(options.out) / results::kUnfinishedFolder);
-    page = renderers.report(results, options.out);
+    page = write_pages(results, options.out, renderers);
   } else {
     page = renderers.codes(files, options.out);
   }
@@ -329,6 +324,11 @@ std::pair<std::string, std::string> split_case_name(const std::string& name) {
   return {is_split ? name.substr(0, colon) : name, is_split ? name.substr(colon + 1) : ""};
 }
 
+std::pair<Case, std::string> load_case_variant(const std::string& name) {
+  const auto [file, variant] = split_case_name(name);
+  return {load_named_case(file), variant};
+}
+
 std::vector<Case> select_cases(const CommandOptions& options) {
   Selection selection = select(options);
   if (!selection.broken.empty()) throw InputError(selection.broken.front().reason);
@@ -362,8 +362,8 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   } else {
     for (const Run& run : runs)
       if (run.fault == results::Fault::none && run.interrupted_by == 0 &&
-          (!options.quiet || counts_as_failure(run)))
-        print_run(run);
+          (!options.quiet || counts_as_failure(run) || !run.warnings.empty()))
+        print_run(run, options.no_errors);
     if (runs.size() == 1) print_validation(runs.front());
     print_summary(results);
     std::cout << "results in " << file.string() << std::endl;

@@ -31,7 +31,7 @@ struct CommandOptions {
   bool any_machine = false;  ///< with --resume, reuse times of other machines
   std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
-  bool quiet = false;  ///< prints only runs that fail, and the summary
+  bool quiet = false;  ///< prints only runs that fail or have warnings, and the summary
 
   std::string shard;    ///< "K/N" for `run`: the K-th of N shards
   std::string history;  ///< SQLite file for verdicts and times; empty: none
@@ -47,16 +47,14 @@ struct CommandOptions {
   std::size_t seed = 1;
   /// True if discretization errors are estimated for all cases, or for no case.
   bool all_errors = false, no_errors = false;
-  double warn_above = 0.01;  ///< relative discretization error above which a warning is printed
-  double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
+  double warn_above = 0;  ///< relative discretization error for warnings; 0: default
+  double accuracy = 0;    ///< relative error for the search of mesh and step; 0: no search
   std::vector<std::string> quantities;  ///< quantities that the search must make accurate
   double time_limit_s = 120;            ///< time limit of this search [s]
 
   double tolerance = 0.01;  ///< permitted relative change of the results, for `effects`
 
   std::vector<std::string> builds;  ///< results.json of other builds, for `certify`
-  /// For the command `coverage`: print only the features without independent evidence.
-  bool gaps = false;
 
   int level = -1;  ///< level of the sweep written by `export`; -1: the case itself
   std::string matrices;
@@ -86,6 +84,10 @@ Command export_command, solve_command, grade_command;
 /// Splits "CASE:VARIANT" into case and variant; the variant is empty if there is none. A colon in
 /// the name of a folder or of an existing file does not separate a variant.
 [[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
+
+/// Returns the case that "CASE:VARIANT" or "CASE" names, and the variant or "".
+/// @throws InputError  if the case cannot be read
+[[nodiscard]] std::pair<Case, std::string> load_case_variant(const std::string& name);
 
 /// Returns the results file for a path: the path itself, or results.json if the path is a folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);

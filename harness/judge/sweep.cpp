@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/find_or_add.h"
 #include "harness/base/number.h"
 #include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
@@ -16,11 +17,8 @@ constexpr std::size_t kMaxTrackedEntries = 16;
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
   for (const auto& item : sweep.levels.back().quantities) {
     if (is_error_measure(item.first)) continue;
-    const bool known =
-        std::ranges::any_of(tracked_quantities, [&](const TrackedQuantity& tracked_quantity) {
-          return tracked_quantity.quantity == item.first;
-        });
-    if (!known) tracked_quantities.push_back({item.first, "", {}, {}});
+    if (!contains(tracked_quantities, item.first, &TrackedQuantity::quantity))
+      tracked_quantities.push_back({item.first, "", {}, {}});
   }
 }
 

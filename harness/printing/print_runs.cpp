@@ -91,13 +91,13 @@ std::vector<Json> check_cells(const results::Check& check, bool with_index) {
           tolerance_text(check)};
 }
 
-void print_run(const results::Run& run) {
+void print_run(const results::Run& run, bool with_values) {
   std::cout << run.case_id << (run.variant == "base" ? "" : ":" + run.variant) << "  "
             << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n"
             << wrapped(run.reason, "  ");
   for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
   if (run.errors && !run.errors->search.empty()) print_tried_settings(*run.errors);
-  if (run.checks.empty() || run.errors) print_quantities(run);
+  if (with_values || run.checks.empty() || run.errors) print_quantities(run);
   if (run.checks.empty()) return;
   Rows table(check_columns());
   std::string messages;

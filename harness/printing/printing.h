@@ -13,9 +13,9 @@ namespace trammel::harness {
 [[nodiscard]] std::vector<Column> check_columns();
 [[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
 
-/// Prints status, warnings and the worst value of each check of a run. For a run without checks,
-/// prints its quantities.
-void print_run(const results::Run& run);
+/// Prints status, warnings and the worst value of each check of a run. The values of its quantities
+/// are printed if requested, without checks, or with estimated discretization errors.
+void print_run(const results::Run& run, bool with_values = false);
 
 /// Prints the discretizations tried for the option --accuracy, with their estimated errors.
 void print_tried_settings(const results::ErrorEstimates& errors);

@@ -7,11 +7,13 @@
 
 #include "harness/analysis/size_estimate.h"
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
+#include "harness/input/catalogue.h"
 #include "harness/judge/convergence.h"
 #include "harness/judge/evaluate_check.h"
 #include "harness/run/results.h"
@@ -90,11 +92,9 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
   for (const Task& task : tasks)
     for (const Check& check : task.checks)
       if (!check.against_variant.empty()) looked_at.insert(check.against_variant);
-  for (const std::string& variant : looked_at) {
-    const bool there =
-        std::ranges::any_of(tasks, [&](const Task& task) { return task.run.variant == variant; });
-    if (!there) tasks.push_back(prepare(owner, variant, false));
-  }
+  for (const std::string& variant : looked_at)
+    if (!contains(tasks, variant, [](const Task& task) { return task.run.variant; }))
+      tasks.push_back(prepare(owner, variant, false));
   return tasks;
 }
 
@@ -109,7 +109,8 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
 
 /// Computes the solution of a task, and estimates its discretization errors if requested.
 void compute_with_errors(Task& task, const References& references) {
-  if (task.requested && task.accuracy.accuracy > 0) {
+  const bool has_accuracy = task.requested && task.accuracy.accuracy > 0;
+  if (has_accuracy && can_be_refined(task.document)) {
     AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
     task.run.errors = std::move(search.errors);
     return record_result(std::move(search.result), task.run);
@@ -119,6 +120,8 @@ void compute_with_errors(Task& task, const References& references) {
   if (task.requested && (task.errors || for_validation) && result.outcome.solved())
     task.run.errors = estimate_errors(task.document, result, references);
   record_result(std::move(result), task.run);
+  if (has_accuracy)
+    task.run.warnings.emplace_back("no accuracy applies: the case has no mesh and no time step");
 }
 
 void compute(Task& task, const References& references) {
@@ -357,9 +360,7 @@ void request_errors(Task& task, const RunOptions& options) {
   const Json& json = task.document.value();
   task.accuracy = {options.accuracy > 0 ? options.accuracy : json.value("accuracy", 0.0),
                    options.quantities, time_limit_s(task.document) * 1.0};
-  const std::filesystem::path catalogue = data_root() / "cases",
-                              file = std::filesystem::absolute(task.owner->file);
-  const bool is_own = std::ranges::mismatch(catalogue, file).in1 != catalogue.end();
+  const bool is_own = !is_in_catalogue(task.owner->file);
   task.errors =
       options.errors == ErrorWish::all || (options.errors == ErrorWish::own_cases && is_own);
 }

@@ -27,6 +27,9 @@ struct AccuracySearch {
   bool reached = false;
 };
 
+/// Returns true if the case has a mesh or time steps, so that its accuracy can be chosen.
+[[nodiscard]] bool can_be_refined(const Document& document);
+
 /// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from a coarse
 /// discretization: up to four times the case's time step, and the case's numbers of elements,
 /// halved until one of them is odd. Then refines the source of the larger error, mesh or time step.

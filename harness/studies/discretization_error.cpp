@@ -162,19 +162,6 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
-/// Returns true if a quantity converges under refinement. Coordinates, counts and measures of
-/// accuracy do not converge.
-bool is_estimated(const std::string& name) {
-  const std::string head = name.substr(0, name.find(':'));
-  static const std::vector<std::string> others = {
-      "time_s",  "pose_", "parameter", "status", "digits",           "frequency_gap",
-      "effect_", "error", "step",      "drift",  "newton_correction"};
-  const auto is_other = [&](const std::string& part) {
-    return head.find(part) != std::string::npos;
-  };
-  return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
-}
-
 /// Scales of the quantities. An error divided by the scale is a relative error.
 class ErrorScales {
  public:
@@ -224,6 +211,17 @@ class ErrorScales {
 };
 
 }  // namespace
+
+bool is_estimated(const std::string& name) {
+  const std::string head = name.substr(0, name.find(':'));
+  static const std::vector<std::string> others = {
+      "time_s",  "pose_", "parameter", "status", "digits",           "frequency_gap",
+      "effect_", "error", "step",      "drift",  "newton_correction"};
+  const auto is_other = [&](const std::string& part) {
+    return head.find(part) != std::string::npos;
+  };
+  return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
+}
 
 bool is_same_result(const AnalysisResult& result, const AnalysisResult& other) {
   return std::ranges::all_of(result.quantities, [&](const auto& item) {

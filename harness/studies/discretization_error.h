@@ -29,6 +29,10 @@ struct Companion {
     const Document& document, ErrorSource source, Refine refine = Refine::coarser,
     const AnalysisResult* result = nullptr);
 
+/// Returns true if a quantity converges under refinement. Coordinates, counts and measures of
+/// accuracy do not converge.
+[[nodiscard]] bool is_estimated(const std::string& quantity);
+
 /// Returns true if the results on two refinement levels are the same to the last bit. Both levels
 /// then had the same time steps, and their difference is no estimate of the error.
 [[nodiscard]] bool is_same_result(const AnalysisResult& result, const AnalysisResult& other);
@@ -54,9 +58,9 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// Returns error bands from the results on two refinement levels. The band about the fine value has
 /// the half width U = 3 |fine - coarse| / (r^p - 1), with the ratio r of element sizes or steps and
 /// the order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p
-/// times as wide. p is at most 2 if the difference exceeds 10 % of the value, or if a mode has fewer
-/// than two coarse elements per half wave of bending. If the values are exact in theory, U is the
-/// difference plus round-off. Modes are matched by their shapes if both results have them.
+/// times as wide. p is at most 2 if the difference exceeds 10 % of the value, or if a mode has
+/// fewer than two coarse elements per half wave of bending. If the values are exact in theory, U is
+/// the difference plus round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 

@@ -151,6 +151,9 @@ BOOST_AUTO_TEST_CASE(missing_quantity_is_an_error_with_a_suggestion) {
   bench.check["quantity"] = "frequncy_Hz";
   BOOST_TEST(bench.verdict() == "error");
   BOOST_TEST(contains(bench.message, "no quantity 'frequncy_Hz'; did you mean 'frequency_Hz'?"));
+  bench.check["quantity"] = "frequency_Hz:1";
+  BOOST_TEST(bench.verdict() == "error");
+  BOOST_TEST(contains(bench.message, "expected 'frequency_Hz' with the entry in 'index'"));
 }
 
 BOOST_AUTO_TEST_CASE(wrong_length_is_an_error) {

@@ -253,6 +253,7 @@ BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
     });
   };
   BOOST_TEST(contains(refusal(own_manipulator(), "frequncy_Hz"), "did you mean 'frequency_Hz'"));
+  BOOST_TEST(contains(refusal(own_manipulator(), "degrees_of_freedom"), "an estimated error"));
   Json rigid = own_manipulator();
   rigid["analysis"] = {{"kinematics", Json::object()}};
   BOOST_TEST(contains(refusal(rigid, "time_s"), "no mesh and no time step"));
