@@ -212,8 +212,9 @@ TRAMMEL_FIELDS(UncertaintyCoverage,
                                 max_median_ratio, min_levels, passes));
 TRAMMEL_FIELDS(ClaimEntry, required("case", &S::case_id), TRAMMEL_REQUIRED(variant, name, value));
 TRAMMEL_FIELDS(ClaimInterpretation, TRAMMEL_REQUIRED(description, metric, unit, verdict, entries));
-TRAMMEL_FIELDS(Claim, TRAMMEL_REQUIRED(id, title, claim, place, verdict, expected, conclusion,
-                                       undecidable, interpretations));
+TRAMMEL_FIELDS(Claim, TRAMMEL_OPTIONAL(title),
+               TRAMMEL_REQUIRED(id, claim, place, verdict, expected, conclusion, undecidable,
+                                interpretations));
 TRAMMEL_FIELDS(PaperItem::Counterpart, required("case", &S::case_id),
                TRAMMEL_OPTIONAL(variant, quantity, figure, verdict));
 TRAMMEL_FIELDS(PaperItem, TRAMMEL_REQUIRED(id, section, what),

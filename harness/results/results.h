@@ -72,7 +72,7 @@ struct CaseInput {
 
 struct CaseInfo {
   std::string id, title, description, family, analysis;
-  std::string file;  ///< path as stated on the command line; empty for cases of the catalogue
+  std::string file;  ///< absolute path; empty for cases of the catalogue
   std::vector<std::string> labels;
   std::optional<StressSuiteEntry> stress_suite;
   std::vector<PlotRequest> figures;

@@ -63,7 +63,8 @@ results::CaseInfo case_info(const Case& given) {
     json["variants"][variant]["title"] = given.variant_title(variant);
   auto info = results::from_json<results::CaseInfo>(json);
   info.id = given.id();
-  if (!is_in_catalogue(given.file)) info.file = given.file.string();
+  if (!is_in_catalogue(given.file))
+    info.file = std::filesystem::absolute(given.file).lexically_normal().string();
   const Document base = patched(given, kBaseVariant);
   if (base.value().contains("model")) add_inputs(base, JsonPointer("/model"), info);
   return info;

@@ -61,7 +61,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
   std::vector<std::string> titles;
   Interval differences;
   int last = 0;
-  std::size_t missed = 0;
+  std::size_t reproduced = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Reference* reference = results.reference(rows[r].reference);
     const std::string title = reference ? reference->title : rows[r].reference;
@@ -71,7 +71,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
       points.push_back({entry - 0.12 - 0.1 * static_cast<double>(r), *check->expected});
       if (r == 0) computed.push_back({entry + 0.12, *check->computed, band});
       differences.cover(check->difference);
-      missed += check_status(*check) == CheckStatus::passes ? 0 : 1;
+      reproduced += check_status(*check) == CheckStatus::passes ? 1 : 0;
       last = std::max(last, *check->index + 1);
       table.rows.push_back({title, entry, *check->expected, *check->computed, band});
     }
@@ -95,8 +95,8 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
       "inputs). The computed values differ from the printed ones (" +
       titles.front().substr(0, titles.front().find_first_of(":,")) + ") by " +
       low_to_high(percent_text(differences.low, 3, true), percent_text(differences.high, 3, true)) +
-      ". " + std::to_string(missed) + " of " + count(table.rows.size(), "printed value") +
-      " are not reproduced.";
+      ". " + std::to_string(reproduced) + " of " + count(table.rows.size(), "printed value") +
+      " are reproduced.";
   return Figure{.id = slug(info.id + "-" + run.variant + "-agreement"),
                 .title = capitalized(to_text(quantity)) + ": printed and computed",
                 .caption = caption,

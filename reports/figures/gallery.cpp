@@ -74,12 +74,6 @@ std::size_t report_position(const Family& family) {
   return static_cast<std::size_t>(found - kOrder.begin());
 }
 
-std::map<std::string, std::string> short_titles(const Family& family) {
-  std::map<std::string, std::string> titles;
-  for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
-  return titles;
-}
-
 }  // namespace
 
 std::string Family::short_title(const CaseInfo& info) const {
@@ -121,9 +115,12 @@ std::vector<Family> plan_family_figures(const Results& results) {
     family.galleries[info.id] = gallery_of(info, results, runs);
   }
   std::ranges::stable_sort(families, {}, report_position);
-  for (Family& family : families)
-    if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
+  for (Family& family : families) {
+    std::map<std::string, std::string> titles;
+    for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
+    if (auto figure = tolerance_figure(family.id, titles, family.runs))
       family.overview.push_back(*figure);
+  }
   return families;
 }
 

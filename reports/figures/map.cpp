@@ -147,8 +147,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
 }
 
 Table table_of(const Field& field, const PlotRequest& request) {
-  Table table;
-  table.heads = {request.x, request.y.front(), request.value};
+  Table table{{request.x, request.y.front(), request.value}, {}};
   for (const Cell& cell : field.cells) table.rows.push_back({cell.x, cell.y, cell.value});
   return table;
 }

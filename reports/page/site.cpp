@@ -80,15 +80,17 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"families", list_of(sections, group)}});
 }
 
-/// Returns links to the front page and to the pages of sections, for the table of contents.
-Data index_contents(const Data& index) {
+/// Returns links to the front page and to the pages of sections, for the bar of the page at `path`.
+Data page_links(const Data& index, const std::string& path, bool has_references) {
   Data out = list();
-  out.push_back(object({{"title", "Overview"}, {"link", "index.html"}}));
+  const auto add = [&](const std::string& title, const std::string& link) {
+    out.push_back(object({{"title", title}, {"link", link}, {"is_here", link == path}}));
+  };
+  add("Overview", "index.html");
   for (const SectionPage& page : section_pages())
-    if (has_content(index, page))
-      out.push_back(object({{"title", page.short_title}, {"link", page.path}}));
-  if (index.get("has_runs")->is_true())
-    out.push_back(object({{"title", "Search"}, {"link", "index.html#find"}}));
+    if (has_content(index, page)) add(page.short_title, page.path);
+  if (has_references) add("References", "references.html");
+  if (index.get("has_runs")->is_true()) add("Search", "index.html#find");
   return out;
 }
 
@@ -152,8 +154,8 @@ Data titled(const std::string& title) {
 }
 
 Data titled_index(const Data& index) {
-  const bool runs = index.get("has_runs")->is_true();
-  Data data = titled(runs ? "Verification and validation report" : "Accuracy and computing time");
+  Data data = titled(index.get("has_runs")->is_true() ? "Verification and validation report"
+                                                      : "Accuracy and computing time");
   set(data, {{"subtitle", "Flexible-link planar parallel manipulators"}});
   return data;
 }
@@ -192,15 +194,13 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
   const Data index = index_data(results, families, sections, figures);
-  const Data contents = index_contents(index);
   std::vector<SiteFile> files;
   const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
-               {"sections", contents},
+               {"sections", page_links(index, path, !results.references.empty())},
                {"families", family_contents(sections, path)},
                {"is_index", path == "index.html"},
-               {"at_references", path == "references.html"},
-               {"has_references", !results.references.empty()},
+               {"has_sidebar", path != "index.html" && !families.empty()},
                {"body", body}});
     files.push_back({path, with_relative_links(render("page.mustache", page), path)});
   };

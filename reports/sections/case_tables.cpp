@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "harness/base/find_or_add.h"
+#include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
@@ -92,14 +93,16 @@ std::string values_text(const std::vector<double>& values) {
   return text;
 }
 
-std::vector<std::string> error_row(const ErrorEstimate& estimate,
-                                   const std::vector<double>& values) {
+/// Returns the values of a quantity with the largest estimated error, if there is an estimate.
+std::vector<std::string> result_row(const std::string& name, const std::vector<double>& values,
+                                    const ErrorEstimate* estimate) {
+  const QuantityLabel quantity = parse_quantity(name);
+  const std::string label = axis_label(to_text(quantity), quantity.unit);
+  if (estimate == nullptr) return {label, values_text(values), "–"};
   double largest = 0;
-  for (const Number& error : estimate.relative) largest = std::max(largest, error.value_or(0));
-  const QuantityLabel quantity = parse_quantity(estimate.quantity);
-  return {axis_label(to_text(quantity), quantity.unit), values_text(values),
-          "± " + percent_text(largest, 2, false) +
-              (estimate.asymptotic ? "" : " (not in the asymptotic range)")};
+  for (const Number& error : estimate->relative) largest = std::max(largest, error.value_or(0));
+  return {label, values_text(values),
+          "± " + trimmed(100 * largest, 2) + "\u202f%" + (estimate->asymptotic ? "" : " (coarse)")};
 }
 
 /// Returns the difference from each printed number and its standard uncertainties (ASME V&V 20),
@@ -185,24 +188,24 @@ Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
 }
 
 void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs) {
-  Data errors(false), probabilities = list(), effects(false), uncertainty(false), inputs(false);
+  Data errors = list(), probabilities = list(), effects(false), uncertainty(false), inputs(false);
   if (!info.inputs.empty()) inputs = table_data(inputs_table(info));
   std::vector<std::string> excluded;
   const TextTable comparisons = uncertainty_table(info, runs);
   if (!comparisons.rows.empty()) uncertainty = table_data(comparisons);
   const auto chosen = std::ranges::find_if(runs, selects_effects);
   if (chosen != runs.end()) effects = table_data(effects_table(**chosen));
-  const auto estimated =
-      std::ranges::find_if(runs, [](const Run* run) { return run->errors.has_value(); });
-  if (estimated != runs.end()) {
-    TextTable table{"Results and their discretization errors",
+  for (const Run* run : runs) {
+    if (info.file.empty() && !run->errors) continue;
+    TextTable table{"Results" + (runs.size() > 1 ? ": " + info.variant_title(run->variant) : ""),
                     {"Quantity", "Values", ">Largest error"},
                     {},
-                    (*estimated)->errors->companions};
-    for (const ErrorEstimate& estimate : (*estimated)->errors->quantities)
-      if (const std::vector<double>* values = (*estimated)->quantity(estimate.quantity))
-        table.rows.push_back(error_row(estimate, *values));
-    if (!table.rows.empty()) errors = table_data(table);
+                    run->errors ? run->errors->companions : ""};
+    for (const auto& [name, quantity] : run->quantities)
+      if (!quantity.values.empty() && !harness::is_error_measure(name))
+        table.rows.push_back(
+            result_row(name, quantity.values, run->errors ? run->errors->find(name) : nullptr));
+    if (!table.rows.empty()) errors.push_back(table_data(table));
   }
   for (const Run* run : runs) {
     if (!run->model_probabilities) continue;

@@ -85,7 +85,7 @@ Data claim_data(const Claim& claim, const Results& results) {
       claim.verdict,
       {{"id", claim.id},
        {"claim", claim.claim},
-       {"short", claim.title},
+       {"short", claim.title.empty() ? claim.claim : claim.title},
        {"deciding", measured_range_text(deciding)},
        {"meaning", deciding.description},
        {"place", claim.place},

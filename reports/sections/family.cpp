@@ -1,3 +1,4 @@
+#include "harness/base/text.h"
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
 
