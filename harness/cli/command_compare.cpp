@@ -60,7 +60,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
                         first = analysis_kind(*sides.front().document);
       if (own != first)
         throw InputError("expected variants with the same analysis (got " + first + " and " + own +
-                         ")");
+                         "); select them as CASE:VARIANT");
     }
   }
   if (sides.size() < 2)

@@ -72,8 +72,7 @@ void print(const Convergence& found) {
 }  // namespace
 
 int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const auto [given, chosen] = load_case_variant(options.word);
-  const std::string variant = options.variant.empty() ? chosen : options.variant;
+  const auto [given, variant] = load_case_variant(options.word, options.variant);
   if (!given.document.value().contains("sweeps"))
     throw given.document.error("", "expected 'sweeps', which define the refinement");
   if (!variant.empty()) (void)patched(given, variant);

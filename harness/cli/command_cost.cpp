@@ -35,13 +35,13 @@ std::multimap<std::string, fs::path> catalogue_studies() {
   return studies;
 }
 
-fs::path find_one(const std::string& word) {
+fs::path find_one(const std::string& word, const std::multimap<std::string, fs::path>& studies) {
   try {
     return Catalogue().find_case(word);
   } catch (const InputError&) {
     if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
     std::vector<std::string> known;
-    for (const auto& item : catalogue_studies()) known.push_back(item.first);
+    for (const auto& item : studies) known.push_back(item.first);
     const std::string hint = did_you_mean(word, known);
     if (hint.empty()) throw;
     throw InputError(
@@ -64,7 +64,7 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     const auto [begin, end] = named.equal_range(word);
     std::for_each(begin, end, [&](const auto& item) { add(item.second); });
     if (begin != end) continue;
-    const fs::path file = find_one(word);
+    const fs::path file = find_one(word, named);
     if (is_cost_study(file)) {
       add(file);
       continue;
@@ -146,7 +146,7 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
                                   const References& references) {
   if (options.words.size() != 1 || !options.sweeps.empty())
     throw InputError("--accuracy: expected a single case, and no --sweep");
-  const Case given = load_case(find_one(options.words.front()));
+  const Case given = load_named_case(options.words.front());
   const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
   const AccuracyRequest request{options.accuracy, options.quantities, options.time_limit_s};
   const AccuracySearch search = search_accuracy(patched(given, variant), request, references);
@@ -158,6 +158,8 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
   } else {
     print(measured);
     print_tried_settings(search.errors);
+    if (!search.reached)
+      std::cout << wrapped("The accuracy is not reached: " + search.errors.reason + ".", "  ");
   }
   return measured;
 }

@@ -42,9 +42,9 @@ void add_run(Rows& rows, const EffectRun& run, const EffectRun& full) {
   for (const auto& [kind, change] : run.changes)
     changes.push_back(kind + " " + rounded(100 * change.value, 3));
   rows.add({effect_names(run.left_out), run.outcome.solved() ? "solved" : run.outcome.reason,
-            number_or_null(run.largest_change()), join(changes, ","), ratio(run.cpu_s, full.cpu_s),
-            ratio(run.work, full.work), run.counters.element_evaluations,
-            run.counters.factorizations, run.counters.solves});
+            number_or_null(run.largest_change()), join(changes, "and"),
+            ratio(run.cpu_s, full.cpu_s), ratio(run.work, full.work),
+            run.counters.element_evaluations, run.counters.factorizations, run.counters.solves});
 }
 
 Rows own_contributions(const EffectStudy& study) {
@@ -155,15 +155,17 @@ std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
 }
 
 std::vector<EffectCase> selected_cases(const CommandOptions& options) {
-  const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
   if (options.words.empty() == options.labels.empty())
     throw InputError("trammel: either cases or --label is required (see trammel effects --help)");
   std::vector<EffectCase> cases;
   for (const std::string& name : options.words) {
-    const auto [given, chosen] = load_case_variant(name);
-    cases.push_back({given.id(), patched(given, chosen.empty() ? variant : chosen)});
+    const auto [given, chosen] = load_case_variant(name, options.variant);
+    const std::string variant = chosen.empty() ? kBaseVariant : chosen;
+    cases.push_back(
+        {given.id() + (variant == kBaseVariant ? "" : ":" + variant), patched(given, variant)});
   }
-  if (options.words.empty()) cases = effect_cases(options.labels, variant);
+  if (options.words.empty())
+    cases = effect_cases(options.labels, options.variant.empty() ? kBaseVariant : options.variant);
   if (cases.empty()) throw InputError("no case with these labels supports effects");
   return cases;
 }

@@ -33,9 +33,8 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
 
 int export_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   ExportChoice choice;
-  const auto [given, variant] = load_case_variant(options.word);
+  const auto [given, variant] = load_case_variant(options.word, options.variant);
   if (!variant.empty()) choice.variant = variant;
-  if (!options.variant.empty()) choice.variant = options.variant;
   if (!options.sweeps.empty()) choice.sweep = options.sweeps.front();
   if (options.level >= 0) choice.level = static_cast<std::size_t>(options.level);
   if (!options.matrices.empty()) {

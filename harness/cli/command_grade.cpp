@@ -5,7 +5,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
@@ -67,6 +66,8 @@ void print_grades(const std::vector<results::Run>& runs) {
   for (const auto& [grade, count] : counts)
     parts.push_back(fmt::format("{} {}", count, to_string(grade)));
   std::cout << count_of(runs.size(), "run") << fmt::format(": {}\n", fmt::join(parts, ", "));
+  if (!counts.contains(Grade::agrees) && !counts.contains(Grade::off))
+    std::cout << "No number of the adapter could be judged.\n";
 }
 
 results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,
@@ -86,7 +87,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   std::vector<Case> cases = select_cases(options);
   // Cases with this label test only the evaluation of checks and do not apply to other codes.
   if (options.words.empty())
-    std::erase_if(cases, [](const Case& one) { return contains(one.labels(), "control"); });
+    std::erase_if(cases, [](const Case& given) { return contains(given.labels(), "control"); });
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;
@@ -113,11 +114,9 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
   require_uninterrupted(found.runs);
-  std::set<Grade> grades;
-  for (const results::Run& run : found.runs) grades.insert(results::grade_of(run));
-  const bool is_judged = grades.contains(Grade::agrees) || grades.contains(Grade::off);
-  if (!is_judged) std::cerr << "no number of the adapter could be judged\n";
-  return std::ranges::any_of(grades, results::is_failure) ? 1 : 0;
+  const bool failure = std::ranges::any_of(
+      found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
+  return failure ? 1 : 0;
 }
 
 }  // namespace trammel::harness

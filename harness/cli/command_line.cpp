@@ -156,15 +156,15 @@ const std::vector<Option>& all_options() {
        "Estimate discretization errors also for cases of the catalogue"},
       {"--no-errors", &Options::no_errors, "Estimate no discretization errors"},
       {"--warn-above", &Options::warn_above,
-       "Relative discretization error above which a warning is printed, also for cases of the "
-       "catalogue; default: 0.01, without the catalogue",
+       "Relative discretization error above which a warning is printed; also estimates the errors "
+       "of cases of the catalogue. Default: 0.01, for your own cases only",
        within(1e-15, 1e6)},
       {"--accuracy", &Options::accuracy,
        "Choose mesh and step so that the estimated relative errors of frequencies, load factors, "
        "displacements and positions are below this value",
        within(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
-       "Quantity to which --accuracy applies instead, such as reaction_y_N or reaction_y_N:A"},
+       "Quantity to which --accuracy applies instead of these, such as reaction_y_N:A"},
       {"--time-limit", &Options::time_limit_s, "Time limit of the search by --accuracy [s]",
        within(1.0, 1e6)},
       {"--results", &Options::builds, "results.json of the same cases computed by another build"},
@@ -180,6 +180,7 @@ const std::vector<Option>& all_options() {
 constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
                                                               {"--errors", "--no-errors"},
                                                               {"--warn-above", "--no-errors"},
+                                                              {"--accuracy", "--no-errors"},
                                                               {"--csv", "--json"}};
 
 struct CommandEntry {

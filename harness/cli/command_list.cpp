@@ -211,10 +211,12 @@ std::string meaning_of(const std::string& name, const Document& document) {
   return found == nullptr ? "" : found->meaning;
 }
 
-Rows quantity_rows(const Case& given) {
-  const Document document = patched(given, kBaseVariant);
+Rows quantity_rows(const std::string& word) {
+  const auto [given, chosen] = load_case_variant(word);
+  const std::string variant = chosen.empty() ? kBaseVariant : chosen;
+  const Document document = patched(given, variant);
   Rows rows({"quantity", "entries", "unit", "meaning"});
-  for (const auto& [name, quantity] : run_variant(given, kBaseVariant).quantities)
+  for (const auto& [name, quantity] : run_variant(given, variant).quantities)
     rows.add({name, quantity.values.size(), unit_of(name), meaning_of(name, document)});
   return rows;
 }
@@ -252,7 +254,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
     return 0;
   }
   require_memory(document);
-  std::cout << given.id() << ": " << given.title() << '\n'
+  std::cout << given.id() << (chosen.empty() ? "" : ":" + chosen) << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
             << describe_model(document) << "\nAnalysis  " << analysis_kind(document) << " "
             << document.value().at("analysis").begin()->dump() << "\nFile      "
@@ -276,8 +278,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
 }
 
 int quantities_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const Rows rows =
-      options.word.empty() ? analysis_rows() : quantity_rows(load_named_case(options.word));
+  const Rows rows = options.word.empty() ? analysis_rows() : quantity_rows(options.word);
   if (options.json) {
     std::cout << format_json(rows.json(), 1);
   } else {

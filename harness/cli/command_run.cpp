@@ -86,11 +86,10 @@ RunOptions run_options(const CommandOptions& given, Progress& progress) {
   options.resume = given.resume;
   options.any_machine = given.any_machine;
   options.memory_bytes = given.memory_bytes;
-  const bool has_limit = given.warn_above > 0;
-  options.errors = given.all_errors || has_limit ? ErrorWish::all
-                   : given.no_errors             ? ErrorWish::none
-                                                 : ErrorWish::own_cases;
-  if (has_limit) options.warn_above = given.warn_above;
+  options.errors = given.all_errors || given.warn_above > 0 ? ErrorWish::all
+                   : given.no_errors                        ? ErrorWish::none
+                                                            : ErrorWish::own_cases;
+  if (given.warn_above > 0) options.warn_above = given.warn_above;
   options.accuracy = given.accuracy;
   options.quantities = given.quantities;
   return options;
@@ -241,7 +240,8 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
     const results::Results results = load_results(files.front());
     if (!results.missing.empty())
       std::cerr << files.front().string() << ": " << results.missing << '\n';
-    page = write_pages(results, options.out, renderers);
+    std::filesystem::remove_all(std::filesystem::path(options.out) / results::kUnfinishedFolder);
+    page = renderers.report(results, options.out);
   } else {
     page = renderers.codes(files, options.out);
   }
@@ -324,9 +324,9 @@ std::pair<std::string, std::string> split_case_name(const std::string& name) {
   return {is_split ? name.substr(0, colon) : name, is_split ? name.substr(colon + 1) : ""};
 }
 
-std::pair<Case, std::string> load_case_variant(const std::string& name) {
+std::pair<Case, std::string> load_case_variant(const std::string& name, const std::string& option) {
   const auto [file, variant] = split_case_name(name);
-  return {load_named_case(file), variant};
+  return {load_named_case(file), option.empty() ? variant : option};
 }
 
 std::vector<Case> select_cases(const CommandOptions& options) {

@@ -86,8 +86,10 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
 
 /// Returns the case that "CASE:VARIANT" or "CASE" names, and the variant or "".
+/// @param option  variant of the option --variant, which has priority; empty: none
 /// @throws InputError  if the case cannot be read
-[[nodiscard]] std::pair<Case, std::string> load_case_variant(const std::string& name);
+[[nodiscard]] std::pair<Case, std::string> load_case_variant(const std::string& name,
+                                                             const std::string& option = "");
 
 /// Returns the results file for a path: the path itself, or results.json if the path is a folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);

@@ -123,8 +123,8 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
 }
 
 bool is_in_catalogue(const fs::path& file) {
-  const fs::path folder = data_root() / "cases";
-  return std::ranges::mismatch(folder, fs::absolute(file)).in1 == folder.end();
+  const fs::path folder = fs::weakly_canonical(data_root() / "cases");
+  return std::ranges::mismatch(folder, fs::weakly_canonical(file)).in1 == folder.end();
 }
 
 Case load_named_case(const std::string& name_or_file) {

@@ -44,7 +44,7 @@ class Catalogue {
   std::vector<std::pair<std::string, std::string>> files_;  ///< pairs of id and path, sorted by id
 };
 
-/// Returns true if a file is below the folder of the catalogue.
+/// Returns true if a file is below the folder of the catalogue. Symbolic links are followed.
 [[nodiscard]] bool is_in_catalogue(const std::filesystem::path& file);
 
 /// Loads a case, given its name in the catalogue or its path.

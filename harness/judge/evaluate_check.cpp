@@ -50,10 +50,9 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
                                          const std::string& where) {
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
-  const std::string head = name.substr(0, name.find(':')),
-                    guess = quantities.contains(head)
-                                ? "; expected '" + head + "' with the entry in 'index'"
-                                : did_you_mean(name, names_of(quantities));
+  const bool has_entry = quantities.contains(name.substr(0, name.find(':')));
+  const std::string guess = has_entry ? "; the key 'index' selects an entry, from 0"
+                                      : did_you_mean(name, names_of(quantities));
   throw NotComparable{
       "no quantity '" + name + "'" + where + (guess.empty() ? known_kinds(quantities) : guess),
       true};

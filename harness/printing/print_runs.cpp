@@ -120,8 +120,6 @@ void print_tried_settings(const results::ErrorEstimates& errors) {
   for (const results::AccuracyStep& step : errors.search)
     table.add({step.setting, number_or_null(step.error), step.cpu_s});
   table.print(std::cout, "  ");
-  if (!errors.reason.empty())
-    std::cout << wrapped("The accuracy is not reached: " + errors.reason + ".", "  ");
 }
 
 void print_validation(const results::Run& run) {

@@ -13,8 +13,9 @@ namespace trammel::harness {
 [[nodiscard]] std::vector<Column> check_columns();
 [[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
 
-/// Prints status, warnings and the worst value of each check of a run. The values of its quantities
-/// are printed if requested, without checks, or with estimated discretization errors.
+/// Prints status, warnings and the worst value of each check of a run. Also prints
+/// the values of its quantities if `with_values` is true, if the run has no checks, or if its
+/// discretization errors were estimated.
 void print_run(const results::Run& run, bool with_values = false);
 
 /// Prints the discretizations tried for the option --accuracy, with their estimated errors.

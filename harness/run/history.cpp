@@ -222,8 +222,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
     changes.push_back({row.name, row.before->verdict, row.after->verdict, row.before->value,
                        row.after->value, call.commit, call.date});
   }
-  std::stable_partition(changes.begin(), changes.end(),
-                        [](auto& c) { return c.verdict_changed(); });
+  std::ranges::stable_partition(changes, &HistoryChange::verdict_changed);
   return changes;
 }
 

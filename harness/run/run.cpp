@@ -109,9 +109,9 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
 
 /// Computes the solution of a task, and estimates its discretization errors if requested.
 void compute_with_errors(Task& task, const References& references) {
-  const bool has_accuracy = task.requested && task.accuracy.accuracy > 0;
-  if (has_accuracy && can_be_refined(task.document)) {
+  if (task.requested && task.accuracy.accuracy > 0 && can_be_refined(task.document)) {
     AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
+    if (!search.reached) task.run.warnings = {"accuracy not reached: " + search.errors.reason};
     task.run.errors = std::move(search.errors);
     return record_result(std::move(search.result), task.run);
   }
@@ -120,8 +120,6 @@ void compute_with_errors(Task& task, const References& references) {
   if (task.requested && (task.errors || for_validation) && result.outcome.solved())
     task.run.errors = estimate_errors(task.document, result, references);
   record_result(std::move(result), task.run);
-  if (has_accuracy)
-    task.run.warnings.emplace_back("no accuracy applies: the case has no mesh and no time step");
 }
 
 void compute(Task& task, const References& references) {

@@ -27,7 +27,7 @@ struct AccuracySearch {
   bool reached = false;
 };
 
-/// Returns true if the case has a mesh or time steps, so that its accuracy can be chosen.
+/// Returns true if the analysis uses a mesh or time steps, so that its accuracy can be chosen.
 [[nodiscard]] bool can_be_refined(const Document& document);
 
 /// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from a coarse
@@ -35,8 +35,8 @@ struct AccuracySearch {
 /// halved until one of them is odd. Then refines the source of the larger error, mesh or time step.
 /// Beam theory and analysis remain unchanged. The results on each refinement level also serve for
 /// the error estimate of the next level.
-/// @throws InputError  if the case has neither mesh nor time steps, no solution, or none of the
-///   requested quantities.
+/// @throws InputError  if the case has neither mesh nor time steps, no solution, or no estimated
+///   error of a requested quantity.
 [[nodiscard]] AccuracySearch search_accuracy(const Document& document,
                                              const AccuracyRequest& request,
                                              const References& references);
