@@ -89,7 +89,7 @@ std::string values_text(const std::vector<double>& values) {
     return low_to_high(significant(low, 4), significant(high, 4));
   }
   std::string text;
-  for (const double value : values) add_item(text, significant(value, 6));
+  for (const double value : values) add_item(text, trimmed(value, 6));
   return text;
 }
 
