@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(estimate_is_one_to_three_times_the_measured_memory) {
     json["analysis"] = {{"sensitivity-map", {{"columns", n}, {"orientations_deg", {0}}}}};
     return json;
   };
-  check("positions of a map", map, {60, 80, 100});
+  check("positions of a map", map, {80, 100, 120});  // the heap grows in steps of 0.13 MB
 }
 
 BOOST_AUTO_TEST_SUITE_END()
