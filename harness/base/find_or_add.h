@@ -10,6 +10,8 @@
 
 namespace trammel::harness {
 
+/// Returns true if an item, or the projection of an item, equals the value. Texts are excluded, so
+/// that a function of this name can search for parts of a text.
 template <typename Range, typename Value, typename Projection = std::identity>
 requires(!std::is_same_v<Range, std::string>) bool contains(const Range& range, const Value& value,
                                                             Projection projection = {}) {
