@@ -2,7 +2,6 @@
 #include <array>
 
 #include "harness/base/find_or_add.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
