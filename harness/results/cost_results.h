@@ -66,18 +66,6 @@ struct CheapestSetting {
   std::vector<std::size_t> tied;  ///< settings that are not significantly slower
 };
 
-/// Agreement between the Pareto fronts of two measurements, such as the odd and even repeats.
-struct Repeatability {
-  /// Numbers of settings on the Pareto fronts of both measurements, and of at least one.
-  std::size_t on_both_fronts = 0, on_either_front = 0;
-  /// Number of target errors with the same fastest setting in both measurements, and number of
-  /// target errors that both measurements reach.
-  std::size_t same_cheapest = 0, target_errors = 0;
-  /// Relative difference between the times that the two measurements need for the same error, over
-  /// all errors of both fronts that both measurements reach. The value is a fraction: 0.1 is 10 %.
-  Number median_difference, largest_difference;
-};
-
 /// Result of a cost study for one of its outputs, or for all outputs together.
 struct CostOutput {
   std::string title, scale;
@@ -91,7 +79,9 @@ struct CostStudy {
   std::size_t baseline = 0;
   double wall_s = 0;
   std::vector<CheapestSetting> cheapest;
-  Repeatability repeatability;
+  /// Largest relative difference between the times of odd and of even repeats for the same error,
+  /// over all errors that both reach. The value is a fraction: 0.1 is 10 %.
+  Number repeatability;
   std::vector<CostOutput> outputs;  ///< if the study has several; the last entry combines all
   /// Hash of each reference file that was used. The hashes are not part of results.json.
   std::map<std::string, std::string> references;

@@ -170,9 +170,6 @@ TRAMMEL_FIELDS(CostSetting, required("error", &S::errors), required("relative_ti
                                 counters, pareto_optimal),
                TRAMMEL_STORE_ONLY(output_errors));
 TRAMMEL_FIELDS(CheapestSetting, TRAMMEL_REQUIRED(error, setting, tied));
-TRAMMEL_FIELDS(Repeatability,
-               TRAMMEL_REQUIRED(on_both_fronts, on_either_front, same_cheapest, target_errors,
-                                median_difference, largest_difference));
 TRAMMEL_FIELDS(CostOutput, TRAMMEL_REQUIRED(title, scale, errors, cheapest));
 TRAMMEL_FIELDS(CostStudy,
                TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "harness/base/text.h"
-#include "harness/base/timing.h"
 
 namespace trammel::harness {
 namespace {
@@ -17,12 +15,6 @@ std::string times(double factor) {
   if (factor < 100) return rounded(factor, 2);
   const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
   return std::to_string(std::llround(std::round(factor / unit) * unit));
-}
-
-std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
-  std::set<std::size_t> settings;
-  for (const CostPoint& point : points) settings.insert(point.setting);
-  return settings;
 }
 
 /// Returns equally fast settings as text: "'fine' or 'finer' or one of 3 more".
@@ -94,36 +86,18 @@ const std::vector<double>& target_errors() {
   return errors;
 }
 
-results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
-                                             const std::vector<CostPoint>& b) {
+double compare_pareto_fronts(const std::vector<CostPoint>& a, const std::vector<CostPoint>& b) {
   const auto front_a = find_pareto_front(a), front_b = find_pareto_front(b);
-  const auto in_a = settings_of(front_a), in_b = settings_of(front_b);
-  results::Repeatability agreement;
-  agreement.median_difference = agreement.largest_difference = 0.0;
-  std::set<std::size_t> either = in_a;
-  either.insert(in_b.begin(), in_b.end());
-  agreement.on_either_front = either.size();
-  agreement.on_both_fronts = in_a.size() + in_b.size() - either.size();
-  std::vector<double> differences;
+  double largest = 0;
   const auto look = [&](double error) {
     // Settings whose errors differ by less than kParetoTolerance count as equally accurate.
     const double within = (1 + kParetoTolerance) * error;
     const auto at_a = fastest_within(front_a, within), at_b = fastest_within(front_b, within);
-    if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
+    if (at_a && at_b) largest = std::max(largest, std::abs(std::log(at_a->time / at_b->time)));
   };
   for (const CostPoint& point : front_a) look(point.error);
   for (const CostPoint& point : front_b) look(point.error);
-  if (!differences.empty()) {
-    agreement.median_difference = std::expm1(quantile(differences, 0.5));
-    agreement.largest_difference = std::expm1(quantile(differences, 1));
-  }
-  for (const double error : target_errors()) {
-    const auto at_a = fastest_within(a, error), at_b = fastest_within(b, error);
-    if (!at_a || !at_b) continue;
-    ++agreement.target_errors;
-    if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
-  }
-  return agreement;
+  return std::expm1(largest);
 }
 
 std::string error_text(double error) {

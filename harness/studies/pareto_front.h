@@ -45,9 +45,10 @@ inline constexpr double kParetoTolerance = 0.05;
 /// Returns the target errors for which the report lists the fastest settings.
 [[nodiscard]] const std::vector<double>& target_errors();
 
-/// Compares the Pareto fronts of two measurements of the same settings.
-[[nodiscard]] results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
-                                                           const std::vector<CostPoint>& b);
+/// Returns the largest relative difference between the times that two measurements of the same
+/// settings need for the same error, over all errors of both Pareto fronts that both reach.
+[[nodiscard]] double compare_pareto_fronts(const std::vector<CostPoint>& a,
+                                           const std::vector<CostPoint>& b);
 
 /// Returns an error as text: "1 %", "1e-6".
 [[nodiscard]] std::string error_text(double error);

@@ -68,18 +68,14 @@ TextTable settings_table(const CostStudy& study) {
 
 std::string measured_text(const CostStudy& study) {
   const CostSetting& baseline = study.settings[study.baseline];
-  const Repeatability& repeatability = study.repeatability;
   const std::string norm = study.norm == "max"   ? "Largest error"
                            : study.norm == "rms" ? "Root mean square of the errors"
                                                  : "Mean error";
   return norm + " against " + study.reference_solution + ", " + study.scale +
          ". Times are relative to '" + baseline.title + "', which takes " +
-         duration(baseline.cpu_s) + ". Odd and even repeats are also evaluated separately. Of " +
-         std::to_string(repeatability.on_either_front) +
-         " settings on either Pareto front, both fronts contain " +
-         std::to_string(repeatability.on_both_fronts) +
-         ". At equal accuracy, the times of the two fronts differ by at most " +
-         percent_text(repeatability.largest_difference.value_or(0), 2, false) + ".";
+         duration(baseline.cpu_s) +
+         ". At equal accuracy, the times of odd and of even repeats differ by at most " +
+         percent_text(study.repeatability.value_or(0), 2, false) + ".";
 }
 
 std::string study_anchor(const CostStudy& study) {
