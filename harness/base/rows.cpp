@@ -37,8 +37,9 @@ bool is_formula(const std::string& text) {
   return text.find_first_of("=+-@\t\r") == 0 && *end != '\0';
 }
 
-std::string csv_cell(const Json& cell) {
+std::string csv_cell(const Json& cell, int digits) {
   if (cell.is_null()) return "";
+  if (cell.is_number_float() && digits > 0) return rounded(cell.get<double>(), digits);
   if (cell.is_number_float()) return shortest_decimal(cell.get<double>());
   return cell.is_string() || cell.is_array() ? csv_text(table_cell(cell, "")) : cell.dump();
 }
@@ -94,14 +95,15 @@ Json Rows::json() const {
   return all;
 }
 
-std::string Rows::csv() const {
+std::string Rows::csv(int digits) const {
   std::string text;
   const auto add_line = [&](const auto& cells, const auto& text_of) {
     for (std::size_t c = 0; c < cells.size(); ++c) text += (c > 0 ? "," : "") + text_of(cells[c]);
     text += '\n';
   };
   add_line(columns_, [](const Column& column) { return csv_text(column.key); });
-  for (const std::vector<Json>& row : rows_) add_line(row, csv_cell);
+  for (const std::vector<Json>& row : rows_)
+    add_line(row, [&](const Json& cell) { return csv_cell(cell, digits); });
   return text;
 }
 

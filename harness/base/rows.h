@@ -36,7 +36,8 @@ class Rows {
   /// Returns the rows as a JSON array with one object per row.
   [[nodiscard]] Json json() const;
   /// Returns a line of keys, then a line for each row (RFC 4180), with all digits of the numbers.
-  [[nodiscard]] std::string csv() const;
+  /// @param digits  significant digits of the numbers; 0: all
+  [[nodiscard]] std::string csv(int digits = 0) const;
 
  private:
   std::vector<Column> columns_;

@@ -152,10 +152,12 @@ Table table_of(const Sweeps& sweeps) {
   for (const Convergence* c : sweeps) {
     const Numbers errors = errors_of(*c);
     for (std::size_t k = 0; k < c->parameter.size(); ++k)
-      table.rows.push_back({*c->parameter[k], static_cast<double>(c->index + 1), cell(c->values[k]),
-                            cell(errors[k]), cell(c->roundoff[k]), cell(c->order[k]),
-                            std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
-                            cell(c->gci[k])});
+      table.rows.push_back(
+          {*c->parameter[k], static_cast<double>(c->index + 1),
+           harness::number_or_null(c->values[k]), harness::number_or_null(errors[k]),
+           harness::number_or_null(c->roundoff[k]), harness::number_or_null(c->order[k]),
+           std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
+           harness::number_or_null(c->gci[k])});
   }
   return table;
 }

@@ -169,10 +169,12 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
     n = std::max(n, s.values->size());
   }
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<Table::Cell> row = {x && i < x->size() ? cell((*x)[i])
-                                                       : cell(static_cast<double>(i + 1))};
+    std::vector<harness::Json> row = {x && i < x->size()
+                                          ? harness::number_or_null((*x)[i])
+                                          : harness::number_or_null(static_cast<double>(i + 1))};
     for (const Series& s : series)
-      row.push_back(i < s.values->size() ? cell((*s.values)[i]) : Table::Cell{});
+      row.push_back(i < s.values->size() ? harness::number_or_null((*s.values)[i])
+                                         : harness::Json());
     table.rows.push_back(std::move(row));
   }
   return table;

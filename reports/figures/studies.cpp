@@ -75,7 +75,8 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     if (effect.cumulative_change) cumulative.push_back({sum, y});
     largest = std::max({largest, change, sum});
     table.rows.push_back({effect.name, std::string(effect.active ? "on" : "off"),
-                          cell(effect.own_change), cell(effect.cumulative_change)});
+                          harness::number_or_null(effect.own_change),
+                          harness::number_or_null(effect.cumulative_change)});
   }
   if (table.rows.empty()) return std::nullopt;
   PlotScript script;

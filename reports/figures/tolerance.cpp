@@ -128,8 +128,8 @@ Table table_of(const std::vector<ToleranceRow>& rows) {
       const double used = difference_over_tolerance(*check);
       table.rows.push_back(
           {run->case_id, run->variant, check->name, check->quantity,
-           check->index ? Table::Cell(static_cast<double>(*check->index + 1)) : Table::Cell{},
-           std::isfinite(used) ? Table::Cell(used) : Table::Cell{}, verdict_text(*check)});
+           check->index ? harness::Json(static_cast<double>(*check->index + 1)) : harness::Json(),
+           std::isfinite(used) ? harness::Json(used) : harness::Json(), verdict_text(*check)});
     }
   return table;
 }

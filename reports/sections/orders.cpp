@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "harness/base/find_or_add.h"
-#include "harness/base/statistic.h"
 #include "reports/drawing/interval.h"
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
@@ -31,12 +30,10 @@ std::vector<OrderRow> rows_of(const Run& run) {
 /// Summary of orders of convergence and errors, of one table row or of all rows of a family.
 struct Findings {
   std::size_t rows = 0, entries = 0;
-  Interval order, law;                  ///< fitted orders; relative misfits of two-term laws
-  double first = 0, last = 0;           ///< largest error on the coarsest and on the finest mesh
-  Number extrapolated;                  ///< largest relative error of the extrapolated values
-  std::size_t fitted = 0, near = 0;     ///< entries with a fitted order, and with one near theory
-  std::size_t levels = 0, covered = 0;  ///< levels with a GCI, and those where it covers the error
-  std::vector<double> ratios;           ///< ratios of the GCI to the true error
+  Interval order, law;               ///< fitted orders; relative misfits of two-term laws
+  double first = 0, last = 0;        ///< largest error on the coarsest and on the finest mesh
+  Number extrapolated;               ///< largest relative error of the extrapolated values
+  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
 
   void add(const OrderRow& row) {
     ++rows;
@@ -57,20 +54,8 @@ struct Findings {
       const double difference = std::abs(*c.fitted_order - *c.theory_order);
       if (difference <= kOrderTolerance * std::max(1.0, *c.theory_order)) ++near;
     }
-    if (c.exact.value_or(0) != 0) add_bands(c);
-  }
-  /// Compares the grid convergence index (GCI), which is relative to the computed value, with the
-  /// error, which is relative to the exact value.
-  void add_bands(const Convergence& c) {
-    if (c.richardson)
+    if (c.exact.value_or(0) != 0 && c.richardson)
       extrapolated = std::max(extrapolated.value_or(0), std::abs(*c.richardson / *c.exact - 1));
-    for (std::size_t k = 0; k < c.gci.size(); ++k) {
-      if (!c.gci[k] || !c.values[k] || !c.error[k]) continue;
-      const double half_width = *c.gci[k] * std::abs(*c.values[k] / *c.exact);
-      ++levels;
-      if (half_width >= *c.error[k]) ++covered;
-      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(half_width / *c.error[k]);
-    }
   }
 };
 
@@ -98,15 +83,6 @@ std::vector<std::string> cells_of(const OrderRow& row, const std::string& varian
           findings.extrapolated ? significant(*findings.extrapolated, 2) : "–"};
 }
 
-/// Reports on how many refinement levels the GCI exceeds the true error, and the median of the GCI
-/// divided by the true error.
-std::string coverage_text(std::size_t covered, const std::string& levels, Number ratio) {
-  std::string text = "The numerical uncertainty (GCI) covers the exact value on " +
-                     std::to_string(covered) + " of " + levels;
-  if (ratio) text += "; its median is " + trimmed(*ratio, 3) + " times the true error";
-  return text;
-}
-
 std::string conclusion_of(const Findings& all) {
   std::string text = count(all.entries, "refinement") + ".";
   if (all.fitted > 0)
@@ -115,9 +91,7 @@ std::string conclusion_of(const Findings& all) {
   if (!all.law.empty())
     text += " If the error has terms of two orders, the sum of both terms fits it within " +
             percent_text(all.law.high, 2, false) + ".";
-  if (all.levels == 0) return text;
-  const Number median = all.ratios.empty() ? Number() : Number(harness::upper_median(all.ratios));
-  return text + " " + coverage_text(all.covered, count(all.levels, "level"), median) + ".";
+  return text;
 }
 
 Data family_of(const Family& family, Findings& all) {
@@ -161,11 +135,12 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
   if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
     const UncertaintyCoverage& found = *results.uncertainty_coverage;
     const double rate = static_cast<double>(found.covered) / found.levels;
-    text = coverage_text(
-               found.covered,
-               std::to_string(found.levels) + " levels (" + percent_text(rate, 3, false) + ")",
-               found.median_ratio) +
-           ".";
+    text = "The numerical uncertainty (GCI) covers the exact value on " +
+           std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
+           percent_text(rate, 3, false) + ")" +
+           (found.median_ratio
+                ? "; its median is " + trimmed(*found.median_ratio, 3) + " times the true error."
+                : ".");
     if (found.min_coverage && found.max_median_ratio)
       text += " Required are a coverage of at least " +
               percent_text(*found.min_coverage, 3, false) + " and a median of at most " +

@@ -190,15 +190,19 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
       const Comparison* found = find_comparison(*run, c);
       const Comparison entry = found != nullptr ? *found : Comparison();
       auto& row = table.rows.emplace_back();
-      const auto add = [&](const std::vector<Table::Cell>& cells) {
+      const auto add = [&](const std::vector<harness::Json>& cells) {
         row.insert(row.end(), cells.begin(), cells.end());
       };
       add({info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity});
-      add({cell(c.index ? Number(*c.index + 1) : Number()), c.unit, cell(c.expected)});
-      add({cell(c.computed), c.measure, cell(c.difference), cell(range.low), cell(range.high)});
+      add({harness::number_or_null(c.index ? Number(*c.index + 1) : Number()), c.unit,
+           harness::number_or_null(c.expected)});
+      add({harness::number_or_null(c.computed), c.measure, harness::number_or_null(c.difference),
+           harness::number_or_null(range.low), harness::number_or_null(range.high)});
       add({std::string(c.is_known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
-      add({verdict_text(c), c.message, cell(error), cell(entry.u_num), cell(entry.u_input)});
-      add({cell(entry.u_reference), cell(entry.u_val), entry.dominant_input});
+      add({verdict_text(c), c.message, harness::number_or_null(error),
+           harness::number_or_null(entry.u_num), harness::number_or_null(entry.u_input)});
+      add({harness::number_or_null(entry.u_reference), harness::number_or_null(entry.u_val),
+           entry.dominant_input});
     }
   return table;
 }

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "harness/base/rows.h"
-#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -36,13 +35,6 @@ class SignalsWait {
  private:
   sigset_t before_{};
 };
-
-std::string written(const Table::Cell& value, int digits) {
-  if (const auto* number = std::get_if<double>(&value))
-    return digits > 0 ? shortest_decimal(*number, digits) : shortest_decimal(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return harness::csv_text(*text);
-  return "";
-}
 
 }  // namespace
 
@@ -98,22 +90,12 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   fs::remove_all(from);
 }
 
-Table::Cell cell(harness::Number number) {
-  if (number) return *number;
-  return std::monostate{};
-}
-
 std::string to_csv(const Table& table) {
-  std::string out;
-  for (std::size_t i = 0; i < table.heads.size(); ++i)
-    out += (i ? "," : "") + harness::csv_text(table.heads[i]);
-  out += '\n';
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i)
-      out += (i ? "," : "") + written(row[i], table.digits);
-    out += '\n';
-  }
-  return out;
+  std::vector<harness::Column> columns;
+  for (const std::string& head : table.heads) columns.emplace_back(head.c_str());
+  harness::Rows rows(std::move(columns));
+  for (const auto& row : table.rows) rows.add(row);
+  return rows.csv(table.digits);
 }
 
 }  // namespace trammel::reports

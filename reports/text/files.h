@@ -2,10 +2,9 @@
 
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "harness/base/number.h"
+#include "harness/base/json.h"
 
 /// Reading and writing of text files, conversion of tables to CSV, and templates of pages.
 namespace trammel::reports {
@@ -29,14 +28,10 @@ void replace_files(const std::filesystem::path& from, const std::filesystem::pat
 
 /// A table for a CSV file (RFC 4180, UTF-8), with units in the heads of columns.
 struct Table {
-  using Cell = std::variant<std::monostate, double, std::string>;
-
   std::vector<std::string> heads;
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<harness::Json>> rows;
   int digits = 0;  ///< significant digits of numbers; 0: all
 };
-
-[[nodiscard]] Table::Cell cell(harness::Number number);
 
 /// Returns the table as CSV. Numbers with all digits read back as the same doubles. Missing values
 /// are empty cells. Texts that a spreadsheet would interpret as formulas start with an apostrophe.
