@@ -1,7 +1,6 @@
 #include "reports/figures/gallery.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <set>
 
@@ -39,8 +38,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
       shapes.push_back(*shape);
   if (variants > kMaxDrawnVariants)
     gallery.problems.push_back("Shapes are drawn for " + std::to_string(kMaxDrawnVariants) +
-                               " of " + count(variants, "variant") +
-                               "; the run store contains all shapes.");
+                               " of " + count(variants, "variant") + ".");
   if (motions > 1)
     gallery.problems.push_back("The motion of one of " + count(motions, "variant") +
                                " is drawn; 'run --vtk' writes the others.");
@@ -61,17 +59,34 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-/// Returns the position of a family in the report: the index of the first word in kOrder that its
-/// id contains. Families without such a word, such as the negative controls, are last.
-std::size_t report_position(const Family& family) {
-  constexpr std::array<const char*, 19> kOrder = {
-      "manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid-dynamics",
-      "neural",      "consistency",    "effect",      "beam",       "prestressed",
-      "rotating",    "second-order",   "buckling",    "transient",  "large",
-      "membrane",    "manufactured",   "benchmark",   "stress"};
-  const auto found = std::ranges::find_if(
-      kOrder, [&](const char* word) { return family.id.find(word) != std::string::npos; });
-  return static_cast<std::size_t>(found - kOrder.begin());
+/// A group of families on the front page. A family belongs to the first group with a word that the
+/// family's id contains.
+struct FamilyGroup {
+  const char* title;
+  std::vector<const char*> words;
+};
+
+/// Sets the group and the position of a family. A family without a group, such as a user's own
+/// cases, is last.
+void set_group(Family& family) {
+  static const std::vector<FamilyGroup> groups = {
+      {"Manipulator", {"manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid"}},
+      {"Neural network and tables", {"neural", "consistency"}},
+      {"Effects", {"effect"}},
+      {"Beams", {"beam", "prestressed", "rotating", "second-order", "buckling", "transient"}},
+      {"Large motion", {"large"}},
+      {"Membranes", {"membrane"}},
+      {"Benchmarks", {"benchmark"}},
+      {"Stress suite", {"stress", "hard"}},
+      {"Manufactured solutions and controls", {"manufactured", "negative"}}};
+  for (const auto& [title, words] : groups)
+    for (const char* word : words) {
+      family.group = title;
+      ++family.position;
+      if (family.id.find(word) != std::string::npos) return;
+    }
+  family.group = family.title;
+  ++family.position;
 }
 
 }  // namespace
@@ -114,7 +129,8 @@ std::vector<Family> plan_family_figures(const Results& results) {
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
     family.galleries[info.id] = gallery_of(info, results, runs);
   }
-  std::ranges::stable_sort(families, {}, report_position);
+  for (Family& family : families) set_group(family);
+  std::ranges::stable_sort(families, {}, &Family::position);
   for (Family& family : families) {
     std::map<std::string, std::string> titles;
     for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);

@@ -19,6 +19,8 @@ struct Gallery {
 /// A family of cases with their runs and all figures.
 struct Family {
   std::string id, title;
+  std::string group = {};    ///< title of a group of families on the front page
+  std::size_t position = 0;  ///< place in the report
   std::vector<const CaseInfo*> cases = {};
   std::vector<const Run*> runs = {};
   std::vector<Figure> overview = {};

@@ -50,13 +50,8 @@ void copy(const Data& from, Data& to, std::initializer_list<const char*> keys) {
 
 /// Returns the data of the front page and of all pages of sections.
 Data index_data(const Results& results, const std::vector<Family>& families,
-                const std::vector<Data>& sections, const StudyFigures& figures) {
+                const StudyFigures& figures) {
   const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
-  const auto group = [](const Data& section) {
-    Data data = object();
-    copy(section, data, {"family_link", "family_title", "cases_count", "counts"});
-    return data;
-  };
   const Data summary = summary_section(results, families);
   return object(
       {{"environment", environment_section(results)},
@@ -77,7 +72,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"has_runs", !results.runs.empty() || (figures.cost.empty() && figures.effects.empty())},
        {"summary", summary},
        {"front", front_page_section(results, families, figures)},
-       {"families", list_of(sections, group)}});
+       {"groups", family_groups(families)}});
 }
 
 /// Returns links to the front page and to the pages of sections, for the bar of the page at `path`.
@@ -144,24 +139,8 @@ std::string check_list(const std::vector<Family>& families) {
          ";\n";
 }
 
-/// Returns template data with the title of a page. Subtitle, parent page and status are empty.
-Data titled(const std::string& title) {
-  return object({{"heading", title},
-                 {"page_title", title},
-                 {"subtitle", ""},
-                 {"above", ""},
-                 {"status_class", ""}});
-}
-
-Data titled_index(const Data& index) {
-  Data data = titled(index.get("has_runs")->is_true() ? "Verification and validation report"
-                                                      : "Accuracy and computing time");
-  set(data, {{"subtitle", "Flexible-link planar parallel manipulators"}});
-  return data;
-}
-
 Data titled_by(const Data& section, const char* title) {
-  Data data = titled(text_variable(section, title));
+  Data data = object({{"heading", text_variable(section, title)}});
   copy(section, data, {"status_class", "status_text", "sign"});
   return data;
 }
@@ -193,7 +172,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                                  const StudyFigures& figures) {
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
-  const Data index = index_data(results, families, sections, figures);
+  const Data index = index_data(results, families, figures);
   std::vector<SiteFile> files;
   const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
@@ -219,12 +198,15 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
     }
   }
   if (!results.references.empty())
-    add("references.html", titled("References"),
+    add("references.html", object({{"heading", "References"}}),
         body_of("references", references_section(results)));
   for (const SectionPage& page : section_pages())
     if (has_content(index, page))
-      add(page.path, titled(page.title), sections_body(index, page.keys));
-  add("index.html", titled_index(index), index_body(index));
+      add(page.path, object({{"heading", page.title}}), sections_body(index, page.keys));
+  add("index.html",
+      object({{"heading", index.get("has_runs")->is_true() ? "Verification and validation report"
+                                                           : "Accuracy and computing time"}}),
+      index_body(index));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});

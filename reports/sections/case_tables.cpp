@@ -136,14 +136,14 @@ TextTable uncertainty_table(const CaseInfo& info, const std::vector<const Run*>&
 /// Returns the inputs of the model with a heading for each object of the case file.
 TextTable inputs_table(const CaseInfo& info) {
   TextTable table{"Inputs of the model", {"Input", ">Value", "Unit", "Stated in"}};
-  std::string last;
-  for (const auto& [path, value, source] : info.inputs) {
+  for (std::string last; const auto& [path, value, source] : info.inputs) {
     const std::size_t slash = path.rfind('/');
     const std::string object = slash == std::string::npos ? "model" : path.substr(0, slash);
     if (std::exchange(last, object) != object) table.rows.push_back({object});
     const QuantityLabel input = parse_quantity(path.substr(slash + 1));
     const std::string unit = value[0] >= 'a' ? "" : input.unit;  // a word has none
-    table.rows.push_back({input.label, value, unit, source.empty() ? "this case" : source});
+    const std::string shown = value.ends_with("0.0") ? trimmed(std::stod(value), 10) : value;
+    table.rows.push_back({input.label, shown, unit, source.empty() ? "this case" : source});
   }
   return table;
 }

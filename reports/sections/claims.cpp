@@ -134,9 +134,7 @@ std::string overview(const Claims& claims) {
         claims.claims, [&](const Claim& claim) { return claim.verdict == style.verdict; });
     if (n > 0) add_item(text, std::to_string(n) + " " + style.verdict);
   }
-  return count(claims.claims.size(), "claim") + ": " + text +
-         ". Each verdict follows from the listed interpretations by a fixed rule. A test fails if "
-         "a verdict changes.";
+  return count(claims.claims.size(), "claim") + ": " + text + ". Fixed rules decide.";
 }
 
 }  // namespace

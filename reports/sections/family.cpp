@@ -1,4 +1,5 @@
 #include "harness/base/text.h"
+#include "harness/results/run_grade.h"
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
 
@@ -97,7 +98,51 @@ Data case_entry(const CaseInfo& info, const Family& family) {
                       {"counts", counts_list(counts_of(runs))}});
 }
 
+/// Returns the first small drawing of a shape or geometry among the cases of a family.
+std::string thumbnail_of(const Family& family) {
+  constexpr std::size_t kMaxSize = 5000;  // [bytes]
+  for (const CaseInfo* info : family.cases)
+    for (const auto part : {&Gallery::shown, &Gallery::sketch})
+      for (const Figure& figure : family.galleries.at(info->id).*part)
+        if (figure.svg.size() <= kMaxSize && figure.svg.find(" data-axes=") == std::string::npos)
+          return figure.svg;
+  return "";
+}
+
+/// Returns the largest difference in words: "+332 %, frequency (Hz)"; empty if every check passes.
+std::string largest_difference_text(const std::vector<const Run*>& runs) {
+  const Check* worst = nullptr;
+  for (const Run* run : runs)
+    if (const Check* check = results::decisive_check(*run);
+        check != nullptr && (worst == nullptr || is_worse_than(*check, *worst)))
+      worst = check;
+  const bool differs = worst != nullptr && check_status(*worst) != CheckStatus::passes;
+  return differs ? difference_text(*worst) + ", " + quantity_text(*worst) : "";
+}
+
 }  // namespace
+
+Data family_groups(const std::vector<Family>& families) {
+  Data groups = list();
+  for (auto family = families.begin(); family != families.end();) {
+    const Family& first = *family;
+    std::vector<const Run*> runs;
+    std::size_t cases = 0;
+    std::string thumbnail;
+    for (; family != families.end() && family->group == first.group; ++family) {
+      runs.insert(runs.end(), family->runs.begin(), family->runs.end());
+      cases += family->cases.size();
+      if (thumbnail.empty()) thumbnail = thumbnail_of(*family);
+    }
+    groups.push_back(object({{"family_link", family_link(first.id)},
+                             {"group_title", first.group},
+                             {"cases_count", count(cases, "case")},
+                             {"counts", counts_list(counts_of(runs))},
+                             {"thumbnail", thumbnail},
+                             {"largest", largest_difference_text(runs)}}));
+  }
+  return groups;
+}
 
 Data case_section(const CaseInfo& info, const Family& family, const Results& results) {
   const std::vector<const Run*> runs = family.runs_of(info.id);

@@ -70,9 +70,7 @@ Data environment_section(const Results& results) {
   if (!results.runs.empty()) add("computing time", time_text(results));
   if (from.stored_runs > 0)
     add("not computed anew", std::to_string(from.stored_runs) + " of " +
-                                 std::to_string(results.runs.size()) +
-                                 " runs, which an earlier call of the same program computed from "
-                                 "the same input; unchanged drawings are kept, too");
+                                 count(results.runs.size(), "run") + " with unchanged input");
   if (results.solver) add("computed by", results.solver->name + " " + results.solver->version);
   data.set("rows", rows);
   return data;

@@ -72,6 +72,10 @@ struct StudyFigures {
 /// A family of cases with its common figures and tables, and a line for each case.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
+/// Returns the groups of families, each with a link to its first family, a small drawing, and its
+/// worst check in words.
+[[nodiscard]] Data family_groups(const std::vector<Family>& families);
+
 /// Returns a table ("matrix") of differences for each validation check with many variants or a
 /// validation uncertainty. Variants are rows, with the nearest to the published values first.
 /// Checked values are columns.

@@ -172,7 +172,7 @@ function moving(svg) {
 }
 for (const data of document.querySelectorAll("figure svg metadata")) moving(data.parentElement);
 
-// Search over all checks. Their list is loaded when the search is opened.
+// Search over all checks. Their list is loaded when the form is first used.
 const find = document.getElementById("find");
 if (find) {
   const form = find.querySelector("form"), body = find.querySelector("tbody"), status = find.querySelector("[role=status]");
@@ -212,11 +212,12 @@ if (find) {
     const options = {family: sorted(cases.map(c => c[2])), role: roles, verdict: statuses.map(s => s[0]), label: sorted(cases.flatMap(c => c[3]))};
     for (const [name, values] of Object.entries(options))
       for (const value of values) made(form.elements[name], "option", {}, value);
+    find.querySelector(".scroll").hidden = false;
     search();
   };
   form.addEventListener("submit", e => e.preventDefault());
   form.addEventListener("input", () => window.trammelChecks && search());
-  find.addEventListener("toggle", () => {
+  form.addEventListener("focusin", () => {
     const list = find.querySelector("template");
     if (!list) return;
     const script = list.content.firstElementChild;
@@ -225,4 +226,5 @@ if (find) {
     script.addEventListener("load", fill);
   });
   find.hidden = false;
+  if (location.hash === "#find") form.elements.text.focus();
 }
