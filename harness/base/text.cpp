@@ -61,8 +61,11 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 
 std::string unknown_name_message(const std::string& expected, const std::string& name,
                                  const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestList = 160;
+  const std::string near = did_you_mean(name, candidates), all = join(candidates, "or");
+  const bool is_listed = near.empty() && !all.empty() && all.size() <= kLongestList;
   return "expected " + expected + " (got '" + printable(name) + "')" +
-         did_you_mean(name, candidates);
+         (is_listed ? "; expected " + all : near);
 }
 
 std::string quoted(const std::string& word) {
@@ -94,7 +97,7 @@ std::string shortest_decimal(double value) {
 
 std::string rounded(double value, int digits) {
   if (!std::isfinite(value)) return "-";
-  return fmt::format("{:.{}g}", value, digits);
+  return fmt::format("{:.{}g}", value + 0.0, digits);  // "0" for -0
 }
 
 std::string percent(double share) {

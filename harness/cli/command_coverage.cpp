@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/cli/commands.h"
@@ -38,7 +39,10 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
   add_missing_evidence_reasons(rows);
   if (!options.word.empty()) {
-    const results::Results results = load_results(results_path(options.word));
+    const auto file = results_path(options.word);
+    if (read_if_results(file).is_null())
+      throw InputError(file.string() + ": expected results (trammel run or trammel report)");
+    const results::Results results = load_results(file);
     if (!results.missing.empty()) std::cerr << options.word << ": " << results.missing << '\n';
     count_quantity_runs(results, rows);
   }

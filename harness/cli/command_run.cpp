@@ -351,9 +351,14 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;
-  const results::Results results =
-      collect_results(compute(selection, references, options), selection.cases, references,
-                      store_folder(options.out, options.store));
+  std::vector<Run> computed = compute(selection, references, options);
+  const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
+  if (std::ranges::all_of(computed, is_refused)) {  // earlier results are kept
+    print_run_errors(computed);
+    return 2;
+  }
+  const results::Results results = collect_results(std::move(computed), selection.cases, references,
+                                                   store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
   const std::filesystem::path out = options.out, file = write_results(results, out);
   renderers.junit(results, out / "junit.xml");

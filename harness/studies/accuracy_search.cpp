@@ -96,6 +96,12 @@ class Search {
       }
       if (!refine(dominant())) break;
     }
+    if (!found_.reached && best_ && best_->error < error()) {
+      current_ = best_->document;
+      found_.result = std::move(best_->result);
+      bands_ = std::move(best_->bands);
+      found_.errors.reason += "; the results are those of " + setting_of(current_);
+    }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
     keep_requested_samples();
     found_.asked = asked_;
@@ -244,13 +250,22 @@ class Search {
     two_levels_[source] = std::move(two_levels);
     if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);
     found_.tried.push_back(current_);
-    found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
+    const double error_now = error();
+    found_.errors.search.push_back({setting_of(current_), error_now, cpu_s_});
+    if (!best_ || error_now <= best_->error) best_ = {current_, found_.result, bands_, error_now};
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
     if (stalled_ < 3) return true;
     found_.errors.reason =
         "refinement no longer reduces the estimated error, due to round-off or a singularity";
     return false;
   }
+
+  struct Level {
+    Document document;
+    AnalysisResult result;
+    std::map<ErrorSource, ErrorBands> bands;
+    double error = kUnknown;
+  };
 
   const AccuracyRequest& request_;
   const References& references_;
@@ -259,6 +274,7 @@ class Search {
   std::optional<Sampling> sampling_;
   Stopwatch watch_;
   AccuracySearch found_;
+  std::optional<Level> best_;  // level with the smallest estimated error
   std::vector<std::string> asked_;
   std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // bands from three and from two levels
   solver::Counters counters_;

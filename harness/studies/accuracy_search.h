@@ -20,8 +20,8 @@ struct AccuracyRequest {
 };
 
 struct AccuracySearch {
-  std::vector<Document> tried;  ///< all settings, coarse to fine; the last one is chosen
-  AnalysisResult result;        ///< result of the chosen setting
+  std::vector<Document> tried;  ///< all settings, coarse to fine
+  AnalysisResult result;        ///< of the last setting, or of the best one if none is sufficient
   results::ErrorEstimates errors;
   std::vector<std::string> asked;  ///< names of the quantities that must be accurate; empty: all
   bool reached = false;

@@ -1,0 +1,234 @@
+// ctest: labels=slow timeout=7200
+// Compares estimated discretization errors with true errors over the catalogue.
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+#include <map>
+
+#include "harness/analysis/coarse_scene.h"
+#include "harness/base/environment.h"
+#include "harness/base/processes.h"
+#include "harness/base/statistic.h"
+#include "harness/base/stopwatch.h"
+#include "harness/base/text.h"
+#include "harness/base/timing.h"
+#include "harness/input/catalogue.h"
+#include "harness/studies/accuracy_search.h"
+
+BOOST_AUTO_TEST_SUITE(error_coverage)
+
+using namespace trammel;
+using namespace trammel::harness;
+
+namespace {
+
+constexpr double kLongest_s = 10;  // processor time of the finer levels of a mesh or step
+constexpr int kFinerLevels = 3;
+constexpr double kKnown = 0.3;  // largest uncertainty of a true error, relative to this error
+
+/// Returns the results on the given level and on up to three finer levels of mesh and step.
+std::vector<AnalysisResult> finer_levels(Document document, AnalysisResult own,
+                                         const References& references) {
+  std::vector<AnalysisResult> levels = {std::move(own)};
+  const Stopwatch watch;
+  for (double before = 0; levels.size() <= kFinerLevels; before = watch.cpu_s()) {
+    for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step})
+      if (const auto finer =
+              adjacent_refinement_level(document, source, Refine::finer, &levels.back()))
+        document = finer->document;
+    try {
+      document.validate("case");
+      levels.push_back(analyze(document, references, {}));
+    } catch (const InputError&) {  // for example, a limit of the number of elements
+      break;
+    }
+    if (!levels.back().outcome.solved()) {
+      levels.pop_back();
+      break;
+    }
+    if (watch.cpu_s() + 4 * (watch.cpu_s() - before) > kLongest_s) break;
+  }
+  return levels;
+}
+
+double work_of(const Document& document, const References& references) {
+  const double unknowns = unknown_count(model_at_path_start(read_case_model(document)));
+  return estimated_work(analyze(document, references, {}).counters, unknowns);
+}
+
+/// Returns the counted work of the companion computations relative to that of the case.
+double cost_of(const Document& document, const AnalysisResult& own, const References& references) {
+  double work = 0;
+  for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step})
+    if (const auto companion = adjacent_refinement_level(document, source, Refine::coarser, &own))
+      work += work_of(companion->document, references);
+  return work / work_of(document, references);
+}
+
+/// Returns a row for each value, and one for the largest difference of a curve. A row has the
+/// stated error, the difference from the finest level, and the difference between the two finest
+/// levels. All are relative to the value or to its scale.
+Json rows_of(const AnalysisResult& own, const results::ErrorEstimates& errors,
+             const std::vector<AnalysisResult>& levels) {
+  Json rows = Json::array();
+  for (const auto& [name, quantity] : own.quantities) {
+    if (!is_estimated(name)) continue;
+    const results::ErrorEstimate* estimate = errors.find(name);
+    const auto value_of = [&, &name = name](const AnalysisResult& level, std::size_t i) {
+      const auto found = level.quantities.find(name);
+      if (found == level.quantities.end()) return kNaN;
+      const std::vector<double>& values = found->second.values;
+      const std::size_t size = own.quantities.at(name).values.size();
+      // A refined step can add samples between those of the case.
+      const std::size_t stride = size > 1 ? (values.size() - 1) / (size - 1) : 1;
+      return i * stride < values.size() ? values[i * stride] : kNaN;
+    };
+    const bool is_curve = estimate && estimate->relative.size() < quantity.values.size();
+    Json largest;
+    for (std::size_t i = 0; i < quantity.values.size(); ++i) {
+      const double value = quantity.values[i], truth = value_of(levels.back(), i);
+      const double size = std::max(std::abs(value), estimate ? estimate->scale.value_or(0) : 0);
+      if (!(size > 0) || std::isnan(truth)) continue;
+      Json row = {name, estimate ? number_or_null(estimate->relative[is_curve ? 0 : i]) : Json(),
+                  std::abs(value - truth) / size,
+                  std::abs(value_of(levels[levels.size() - 2], i) - truth) / size};
+      if (is_curve && estimate->scale) row[2] = std::abs(value - truth) / *estimate->scale;
+      if (!is_curve) rows.push_back(row);
+      if (largest.is_null() || row[2] > largest[2]) largest = row;
+    }
+    if (is_curve && !largest.is_null()) rows.push_back(largest);
+  }
+  return rows;
+}
+
+void add_level(const std::string& level, const Document& document, Json& levels) {
+  const References references;
+  AnalysisResult own = analyze(document, references, {true});
+  if (!own.outcome.solved() || !can_be_refined(document)) return;
+  const results::ErrorEstimates errors = estimate_errors(document, own, references);
+  const std::vector<AnalysisResult> finer = finer_levels(document, own, references);
+  if (finer.size() < 3) return;  // the true errors are unknown
+  levels.push_back({{"level", level},
+                    {"kind", inner_analysis_kind(document)},
+                    {"cost", cost_of(document, own, references)},
+                    {"rows", rows_of(own, errors, finer)}});
+}
+
+/// Returns the levels of a case as JSON: its variants, default settings, and the first two levels
+/// of each sweep.
+std::string levels_of(const Case& given) {
+  Json levels = Json::array();
+  const auto add = [&](const std::string& name, const Document& document) {
+    try {
+      document.validate("case");
+      add_level(given.id() + ", " + name, document, levels);
+    } catch (const InputError&) {  // a case that is to be refused
+    }
+  };
+  for (const std::string& variant : given.variants()) add(variant, patched(given, variant));
+  Document document = patched(given, kBaseVariant), by_default = document;
+  if (by_default.value().contains(JsonPointer("/model/elements"))) {
+    by_default.apply_patch("default", "", {{"model", {{"elements", nullptr}}}});
+    add("default mesh", by_default);
+  }
+  for (const auto& item : document.value().value("sweeps", Json::object()).items()) {
+    const auto sweep = sweep_levels(document, item.key());
+    for (std::size_t i = 0; i < std::min<std::size_t>(2, sweep.size()); ++i)
+      add(item.key() + " level " + std::to_string(i + 1), sweep[i].document);
+  }
+  return levels.dump();
+}
+
+/// Estimates of one type of analysis.
+struct Tally {
+  int values = 0, estimated = 0, covered = 0, missed = 0, short_by_ten = 0;
+  std::vector<double> ratios, cost;
+
+  [[nodiscard]] double coverage() const {
+    return covered + missed > 0 ? static_cast<double>(covered) / (covered + missed) : 1;
+  }
+};
+
+struct Miss {
+  double ratio;                    ///< true error divided by the stated one
+  std::vector<std::string> cells;  ///< case, quantity, stated and true error
+};
+
+/// Returns a row of an HTML table. @param tag  "th" or "td"
+std::string row_of(const std::string& tag, const std::vector<std::string>& cells) {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) row.append("<").append(tag).append(">").append(cell);
+  return row + "</tr>\n";
+}
+
+void add_row(const Json& row, const std::string& level, Tally& tally, std::vector<Miss>& misses) {
+  constexpr double kRoundoff = 1e-11;
+  ++tally.values;
+  if (row[1].is_null()) return;
+  ++tally.estimated;
+  const double stated = row[1], difference = row[2], unknown = row[3];
+  const bool is_known = unknown <= kKnown * difference;
+  if (difference + unknown > stated && !is_known) return;  // cannot be decided
+  if (difference <= stated) {
+    ++tally.covered;
+  } else {
+    ++tally.missed;
+    if (difference > 10 * stated) ++tally.short_by_ten;
+    misses.push_back(
+        {difference / stated, {level, row[0], rounded(stated, 2), rounded(difference, 2)}});
+  }
+  if (is_known && difference > kRoundoff) tally.ratios.push_back(stated / difference);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(stated_errors_cover_true_errors) {
+  std::vector<ProcessTask> tasks;
+  const std::vector<Case> cases = Catalogue().load();
+  for (const Case& given : cases) tasks.push_back({[&given] { return levels_of(given); }, 900});
+  std::map<std::string, Tally> tallies;
+  std::vector<Miss> misses;
+  const auto ended = [&](std::size_t task, const ProcessOutcome& outcome) {
+    BOOST_TEST((outcome.termination == ProcessOutcome::Termination::answered),
+               cases[task].id() << ": " << outcome.text);
+    if (outcome.termination != ProcessOutcome::Termination::answered) return;
+    for (const Json& level : Json::parse(outcome.text)) {
+      Tally& tally = tallies[level["kind"]];
+      tally.cost.push_back(level["cost"]);
+      for (const Json& row : level["rows"]) add_row(row, level["level"], tally, misses);
+    }
+  };
+  BOOST_TEST(run_in_processes(tasks, {2}, ended) == 0);
+  // To update the report, this file replaces the one of the same name in reports/templates.
+  std::ofstream out("error_coverage.mustache");
+  const Json program = build_and_machine_info();
+  out << "<p class=\"muted\">Commit " << program["commit"].get<std::string>() << ", "
+      << program["date"].get<std::string>() << ".</p>\n<table class=\"results-table plain\">\n"
+      << row_of("th", {"Analysis", "Values", "With estimate (%)", "Decided", "Covered (%)",
+                       "Short by more than 10", "Median stated / true", "Cost: median, 95 % (%)"});
+  const auto text = [](const std::vector<double>& values, double fraction, double factor = 1) {
+    return values.empty() ? std::string("–") : rounded(factor * quantile(values, fraction), 2);
+  };
+  int covered = 0, missed = 0, short_by_ten = 0;
+  for (const auto& [kind, tally] : tallies) {
+    covered += tally.covered, missed += tally.missed, short_by_ten += tally.short_by_ten;
+    out << row_of(
+        "td",
+        {kind, std::to_string(tally.values), rounded(100.0 * tally.estimated / tally.values, 4),
+         std::to_string(tally.covered + tally.missed), rounded(100 * tally.coverage(), 4),
+         std::to_string(tally.short_by_ten), text(tally.ratios, 0.5),
+         text(tally.cost, 0.5, 100) + ", " + text(tally.cost, 0.95, 100)});
+    BOOST_TEST(tally.estimated >= 0.9 * tally.values, kind);
+    if (tally.covered + tally.missed >= 20) BOOST_TEST(tally.coverage() >= 0.9, kind);
+    if (!tally.ratios.empty()) BOOST_TEST(quantile(tally.ratios, 0.5) <= 4, kind);
+  }
+  BOOST_TEST(covered >= 0.95 * (covered + missed));
+  BOOST_TEST(short_by_ten == 0);
+  out << "</table>\n<table class=\"results-table plain\">\n"
+      << row_of("th", {"Largest misses", "Quantity", "Stated", "True"});
+  std::ranges::sort(misses, std::greater(), &Miss::ratio);
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, misses.size()); ++i)
+    out << row_of("td", misses[i].cells);
+  out << "</table>\n";
+}
+
+BOOST_AUTO_TEST_SUITE_END()
