@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -173,7 +171,6 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
 }
 
 int print_one(const EffectCase& scene, const CommandOptions& options) {
-  if (isatty(STDERR_FILENO) == 1) std::cerr << "trammel: running with and without each effect\n";
   const EffectStudy study = study_effects(scene.document, {options.tolerance, options.repeats});
   if (!options.json) {
     std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';

@@ -178,7 +178,9 @@ std::optional<Json> time_step_patch(const Document& document, Refine refine, dou
     const double step = analysis.value("step_s", largest_step);
     if (step > 0) patch["step_s"] = longer * step;
   } else {
-    patch["step_s"] = longer * analysis["step_s"].get<double>();
+    const double step = longer * analysis["step_s"].get<double>();
+    patch["step_s"] = step;
+    if (analysis.value("output_step_s", step) < step) patch["output_step_s"] = step;
   }
   Json all = patch_setting_value(document.value(), place, patch);
   if (const auto sampling = output_sampling(document)) {  // peak values are determined from samples

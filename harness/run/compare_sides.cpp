@@ -163,76 +163,24 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     found.remarks.push_back("not in " + sides + ": " + join(missing, "and"));
 }
 
-/// Returns the modes of a run from its drawing, if the run `like` draws the same nodes.
-std::optional<SampledModes> drawn_modes(const results::Run& run, const results::Run& like) {
-  const std::vector<double>* frequency = run.quantity("frequency_Hz");
-  if (!run.drawing || !like.drawing || frequency == nullptr) return std::nullopt;
-  if (run.drawing->nodes != like.drawing->nodes) return std::nullopt;
-  const auto& shapes = run.drawing->shapes;
-  std::size_t count = std::min(shapes.size(), frequency->size());
-  const auto repeats = [&](std::size_t i) {
-    const auto hertz = [&](std::size_t k) { return Number((*frequency)[k]).value_or(0); };
-    return hertz(i) - hertz(i - 1) <= 1e-6 * hertz(i);
-  };
-  // A set of modes of equal frequency is omitted if only some of its shapes are drawn.
-  if (count < frequency->size())
-    while (count > 0 && repeats(count)) --count;
-  SampledModes modes;
-  modes.shape.resize(2 * static_cast<Eigen::Index>(run.drawing->nodes.size()),
-                     static_cast<Eigen::Index>(count));
-  for (std::size_t m = 0; m < count; ++m) {
-    modes.frequency.push_back((*frequency)[m]);
-    Eigen::Index row = 0;
-    for (const auto& [x, y] : shapes[m].displacement)
-      for (const double u : {x, y})
-        modes.shape(row++, static_cast<Eigen::Index>(m)) = std::isfinite(u) ? u : 0;
-  }
-  return modes;
-}
-
-/// Returns true if the modes recomputed for their shapes have the frequencies of the run. The
-/// recomputation assumes a model at rest without loads, so frequencies of rotating or prestressed
-/// models differ.
-bool are_of(const SampledModes& modes, const results::Run& run) {
-  const std::vector<double>& known = *run.quantity("frequency_Hz");
-  for (std::size_t i = 0; i < known.size(); ++i)
-    if (i >= modes.frequency.size() ||
-        !(std::abs(modes.frequency[i] - known[i]) <= 1e-6 * (1 + std::abs(known[i]))))
-      return false;
-  return true;
-}
-
-using Sampled = std::optional<std::pair<SampledModes, SampledModes>>;
-
-Sampled sample(const results::Run& a, const results::Run& b, const Document* document_a,
-               const Document* document_b) {
-  if (document_a != nullptr && document_b != nullptr) {
-    auto both = sample_modes(*document_a, *document_b);
-    if (are_of(both.first, a) && are_of(both.second, b)) return both;
-  }
-  auto drawn_a = drawn_modes(a, b), drawn_b = drawn_modes(b, a);
-  if (!drawn_a || !drawn_b) return std::nullopt;
-  return std::pair{std::move(*drawn_a), std::move(*drawn_b)};
-}
-
 std::vector<std::size_t> from_one(std::vector<std::size_t> numbers) {
   for (std::size_t& number : numbers) ++number;
   return numbers;
 }
 
 /// Matches the modes of all sides with the modes of the first side; empty if shapes are missing.
-std::vector<ComparedModes> compare_modes(const Runs& runs,
-                                         const std::vector<const Document*>& documents) {
+std::vector<ComparedModes> compare_modes(const Runs& runs) {
   std::vector<ComparedModes> rows;
   const std::vector<double>& known = *runs.front()->quantity("frequency_Hz");
   double largest = 0;
   for (std::size_t s = 1; s < runs.size(); ++s) {
-    const Sampled both = sample(*runs.front(), *runs[s], documents.front(), documents[s]);
-    if (!both) return {};
+    if (!runs.front()->drawing || !runs[s]->drawing) return {};
+    const auto [a, b] = sample_modes(known, *runs.front()->drawing,
+                                     *runs[s]->quantity("frequency_Hz"), *runs[s]->drawing);
+    if (a.shape.rows() == 0) return {};
     std::size_t row = 0;
-    for (const ModeMatch& match : match_modes(both->first, both->second)) {
-      if (match.a.front() >= known.size()) break;
-      const double first = both->first.frequency[match.a.front()];
+    for (const ModeMatch& match : match_modes(a, b)) {
+      const double first = a.frequency[match.a.front()];
       largest = std::max(largest, std::abs(first));
       if (s == 1) {
         rows.emplace_back();
@@ -245,8 +193,8 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
       ComparedModes& found = rows.at(row++);
       found.modes.push_back(from_one(match.b));
       const bool there = !match.b.empty();
-      const double low = there ? both->second.frequency[match.b.front()] : 0;
-      const double high = there ? both->second.frequency[match.b.back()] : 0;
+      const double low = there ? b.frequency[match.b.front()] : 0;
+      const double high = there ? b.frequency[match.b.back()] : 0;
       found.values.push_back(there ? Number(low) : Number());
       found.errors.push_back(there ? runs[s]->error_half_width("frequency_Hz", match.b.front())
                                    : Number());
@@ -276,8 +224,10 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   if (std::ranges::any_of(runs,
                           [](const auto* run) { return run->quantity("frequency_Hz") == nullptr; }))
     return;
-  found.modes = compare_modes(runs, documents);
-  if (!found.modes.empty()) std::erase_if(found.numbers, by_number);
+  found.modes = compare_modes(runs);
+  const std::size_t count = found.modes.empty() ? 0 : found.modes.back().modes[0].back();
+  std::erase_if(found.numbers,
+                [&](const ComparedNumber& n) { return by_number(n) && n.index < count; });
 }
 
 /// Adds remarks about changed statuses of runs, and about at most three changed verdicts of checks

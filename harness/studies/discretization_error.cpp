@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <string_view>
 
+#include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
@@ -18,10 +21,18 @@ namespace {
 using results::ErrorEstimate;
 using results::ErrorEstimates;
 
-constexpr double kSafetyFactor = 3;       // Roache's factor if the order is not observed
-constexpr double kLargeDifference = 0.1;  // relative; outside of the asymptotic range
-constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
-                                          // for all
+constexpr double kSafetyFactor = 3;         // Roache's factor if the order is not observed
+constexpr double kLargeDifference = 0.1;    // relative; outside of the asymptotic range
+constexpr double kMaxFinerUnknowns = 1000;  // largest model with a finer companion
+constexpr std::size_t kMaxEntries = 12;  // a quantity with more entries is a curve, with one error
+                                         // for all
+
+/// Returns the name of a quantity without "steady_" or "peak_".
+std::string base_name(const std::string& name) {
+  for (const char* prefix : {"steady_", "peak_"})
+    if (name.starts_with(prefix)) return name.substr(std::string_view(prefix).size());
+  return name;
+}
 
 /// Returns true if the analysis depends on neither a mesh nor steps.
 bool is_closed_form(const std::string& kind) {
@@ -50,25 +61,30 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
 }
 
 /// Returns the order of convergence in the element size; empty if nodal values are exact.
-std::optional<double> mesh_order(const Document& document) {
+std::optional<double> mesh_order(const Document& document, const std::string& quantity) {
   const Json& model = document.value()["model"];
   const std::string kind = inner_analysis_kind(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
-  // Harmonic peaks and equilibria in large rotation converge with order 2, modes with order 4.
-  // Buckling under gravity has order 2, because axial force is constant in each element.
-  bool is_second = kind == "harmonic" || kind == "large-statics" || model.contains("plates") ||
-                   any("kind", "triangles");
-  if (kind != "statics")
+  const JsonPointer place(analysis_pointer(document) + "/second_order");
+  const bool is_linear = kind == "statics" && !document.value().value(place, false);
+  const bool has_triangles = model.contains("plates") || any("kind", "triangles");
+  if (has_triangles && quantity.starts_with("stress_")) return 1;
+  // Harmonic peaks, section forces in motion and equilibria in large rotation converge with order
+  // 2, modes with order 4. Second-order theory under a distributed load has order 2, because axial
+  // force is constant in each element.
+  const bool is_compressed = kind == "buckling" || (kind == "statics" && !is_linear);
+  bool is_second = has_triangles || kind == "harmonic" || kind == "large-statics" ||
+                   kind == "elastodynamics" || (is_compressed && model.contains("gravity_m_s2"));
+  if (!is_linear)
     is_second = is_second || any("mass_matrix", "lumped") || any("beam", "timoshenko") ||
                 any("beam", "shear");
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
-      is_second = is_second || (kind == "buckling" && model.contains("gravity_m_s2")) ||
+      is_second = is_second || (is_compressed && member.contains("load_N_per_m")) ||
                   member.contains("end_section") || member.contains("arc_center_m") ||
                   member.contains("restrained_motions");
   if (is_second) return 2;
-  const JsonPointer place(analysis_pointer(document) + "/second_order");
-  if (kind == "statics" && !document.value().value(place, false)) return std::nullopt;
+  if (is_linear) return std::nullopt;
   return 4;
 }
 
@@ -88,6 +104,20 @@ double step_order(const Document& document) {
     if (analysis.contains(gamma) && analysis.at(gamma) != 0.5) return 1;
   }
   return 2;
+}
+
+/// Returns the order of convergence, which is the lowest order of all discretized parts.
+/// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
+/// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963).
+/// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
+/// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
+/// if nodal values are exact in theory.
+std::optional<double> theoretical_order(const Document& document, ErrorSource source,
+                                        const std::string& quantity) {
+  if (source == ErrorSource::mesh) return mesh_order(document, quantity);
+  // The largest value among samples converges at most with order 2 in the distance between samples.
+  const double order = step_order(document);
+  return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
 
 /// Returns, for each entry of a series, the index of the entry of the other series at the same time
@@ -111,49 +141,16 @@ std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Qua
   return places;
 }
 
-/// Returns the displacements of the drawn modes at the nodes with these indices in the drawing.
-SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t>& nodes) {
-  SampledModes modes;
-  modes.frequency = result.quantities.at("frequency_Hz").values;
-  const auto& shapes = result.drawing->shapes;
-  modes.frequency.resize(std::min(modes.frequency.size(), shapes.size()));
-  modes.shape.resize(2 * std::ssize(nodes), std::ssize(modes.frequency));
-  for (std::size_t m = 0; m < modes.frequency.size(); ++m)
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const auto& [x, y] = shapes[m].displacement.at(nodes[n]);
-      modes.shape(2 * static_cast<solver::Index>(n), static_cast<solver::Index>(m)) = x;
-      modes.shape(2 * static_cast<solver::Index>(n) + 1, static_cast<solver::Index>(m)) = y;
-    }
-  return modes;
-}
-
-/// Returns, for each mode, the index of the mode of the other result with the same shape. The index
-/// is empty if no mode matches.
-std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
-                                                      const AnalysisResult& other) {
-  const auto& a = own.drawing->nodes;
-  const auto& b = other.drawing->nodes;
-  double size = 0;
-  for (const auto& [x, y] : a) size = std::max({size, std::abs(x), std::abs(y)});
-  std::map<std::pair<long, long>, std::size_t> place_of;
-  const auto key = [&](const results::Point& p) {
-    return std::pair(std::lround(1e8 * p.first / size), std::lround(1e8 * p.second / size));
-  };
-  for (std::size_t j = 0; j < b.size(); ++j) place_of.emplace(key(b[j]), j);
-  std::vector<std::size_t> in_own, in_other;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto found = place_of.find(key(a[i]));
-    if (found == place_of.end()) continue;
-    in_own.push_back(i);
-    in_other.push_back(found->second);
-  }
-  std::vector<std::optional<std::size_t>> places(own.quantities.at("frequency_Hz").values.size());
-  // Modes without a drawn shape are matched by their numbers.
-  for (std::size_t i = own.drawing->shapes.size(); i < places.size(); ++i) places[i] = i;
-  for (const ModeMatch& match : match_modes(sampled(own, in_own), sampled(other, in_other)))
-    for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
-      places[match.a[k]] = match.b[k];
-  return places;
+/// Returns a bound of the difference between the largest value of a curve and the largest of its
+/// samples, for a parabola through three samples. Returns 0 for quantities that are not peaks.
+double sampling_error(const AnalysisResult& result, const std::string& name) {
+  const auto curve = result.quantities.find(base_name(name));
+  if (!name.starts_with("peak_") || curve == result.quantities.end()) return 0;
+  const std::vector<double>& values = curve->second.values;
+  double largest = 0;
+  for (std::size_t i = 2; i < values.size(); ++i)
+    largest = std::max(largest, std::abs(values[i] - 2 * values[i - 1] + values[i - 2]));
+  return largest / 8;
 }
 
 bool has_shapes(const AnalysisResult& result) {
@@ -169,7 +166,11 @@ class ErrorScales {
       : own_(own.quantities), kind_(inner_analysis_kind(document)) {
     if (!document.value().contains("model")) return;
     const ModelScales model = typical_scales(model_at_path_start(read_case_model(document)));
-    scales_ = change_scales(own_, model);
+    Quantities grouped = own_;
+    for (const auto& [name, quantity] : own_)  // peaks share the scales of the curves
+      if (base_name(name) != name) grouped.emplace(base_name(name), quantity);
+    scales_ = change_scales(grouped, model);
+    scales_["growth rate"] = 2 * std::numbers::pi * scales_["frequency"];
     if (!kind_.starts_with("large-") && kind_ != "modes") return;
     for (const auto& [kind, size] : {std::pair("displacement", model.length), {"rotation", 1.0}})
       scales_[kind] = std::max(scales_[kind], kPositionRoundoff * size);
@@ -188,7 +189,8 @@ class ErrorScales {
   /// load factors and other numbers are relative to each number, but at least to 1e-6 of the
   /// largest number.
   [[nodiscard]] double of(const std::string& name) const {
-    const std::string kind = quantity_group(name.starts_with("steady_") ? name.substr(7) : name);
+    const std::string kind =
+        name.starts_with("growth_rate_per_s") ? "growth rate" : quantity_group(base_name(name));
     const double largest = max_abs(own_.at(name).values);
     const auto found = scales_.find(kind);
     if (kind == "frequency" || found == scales_.end())
@@ -198,7 +200,7 @@ class ErrorScales {
   /// Returns the assumed relative round-off error of a quantity. This error is larger for analyses
   /// with iterations or time steps.
   [[nodiscard]] double roundoff() const {
-    return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
+    return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-11 : 1e-9;
   }
 
  private:
@@ -215,12 +217,29 @@ class ErrorScales {
 bool is_estimated(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
   static const std::vector<std::string> others = {
-      "time_s",  "pose_", "parameter", "status", "digits",           "frequency_gap",
-      "effect_", "error", "step",      "drift",  "newton_correction"};
+      "time_s",  "pose_",         "parameter",         "status",
+      "digits",  "frequency_gap", "effect_",           "error",
+      "step",    "drift",         "newton_correction", "iteration",
+      "elements"};
   const auto is_other = [&](const std::string& part) {
     return head.find(part) != std::string::npos;
   };
   return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
+}
+
+std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
+                                                      const AnalysisResult& other) {
+  const std::vector<double>& frequency = own.quantities.at("frequency_Hz").values;
+  std::vector<std::optional<std::size_t>> places(frequency.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
+  if (!has_shapes(own) || !has_shapes(other)) return places;
+  const auto [a, b] = sample_modes(frequency, *own.drawing,
+                                   other.quantities.at("frequency_Hz").values, *other.drawing);
+  std::fill_n(places.begin(), a.frequency.size(), std::nullopt);
+  for (const ModeMatch& match : match_modes(a, b))
+    for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
+      places[match.a[k]] = match.b[k];
+  return places;
 }
 
 bool is_same_result(const AnalysisResult& result, const AnalysisResult& other) {
@@ -235,6 +254,10 @@ std::optional<Companion> adjacent_refinement_level(const Document& document, Err
                                                    Refine refine, const AnalysisResult* result) {
   if (is_closed_form(inner_analysis_kind(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
+  const JsonPointer varied("/analysis/study/pointers/0");
+  if (is_mesh && document.value().contains(varied) &&
+      document.value().at(varied) == mesh_pointer(document))
+    return std::nullopt;
   const bool has_step = result != nullptr && result->quantities.contains("largest_step_s");
   const double step = has_step ? result->quantities.at("largest_step_s").values.front() : 0;
   const auto patch_of = [&](const Document& given, Refine how) {
@@ -258,35 +281,31 @@ std::optional<Companion> adjacent_refinement_level(const Document& document, Err
   return companion;
 }
 
-std::optional<double> theoretical_order(const Document& document, ErrorSource source,
-                                        const std::string& quantity) {
-  if (source == ErrorSource::mesh) return mesh_order(document);
-  // The largest value among samples converges at most with order 2 in the distance between samples.
-  const double order = step_order(document);
-  return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
-}
-
 ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                        ErrorSource source, const Companion& companion) {
   const Document& document = companion.document;
   const ErrorScales scales(document, result);
   ErrorBands bands;
-  const bool by_shape = has_shapes(result) && has_shapes(other);
   // A finer companion has half the element size of the coarse mesh.
   double resolved = std::numeric_limits<double>::infinity();
-  if (source == ErrorSource::mesh && inner_analysis_kind(document) == "modes")
-    resolved = resolved_frequency(
-                   solver::discretize(model_at_path_start(read_case_model(document))).mesh) /
-               (companion.finer ? 4 : 1);
+  if (source == ErrorSource::mesh && inner_analysis_kind(document) == "modes") {
+    const solver::Mesh mesh =
+        solver::discretize(model_at_path_start(read_case_model(document))).mesh;
+    resolved = resolved_frequency(mesh);
+    for (const solver::FrameElement& e : mesh.frame)  // half waves of two elements along a bar
+      if (e.section.mass_per_length > 0)
+        resolved = std::min(resolved,
+                            std::sqrt(e.section.EA / e.section.mass_per_length) / (4 * e.length));
+    if (companion.finer) resolved /= 4;
+  }
   for (const auto& [name, quantity] : result.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;
     const std::vector<double>& values = quantity.values;
     const std::vector<double>& others = found->second.values;
-    const bool is_frequency = name == "frequency_Hz" && by_shape;
-    const auto places =
-        is_frequency ? matched_modes(result, other)
-                     : aligned(result.quantities, other.quantities, values.size(), others.size());
+    const auto places = name == "frequency_Hz" ? matched_modes(result, other)
+                                               : aligned(result.quantities, other.quantities,
+                                                         values.size(), others.size());
     const double scale = scales.of(name);
     const std::optional<double> order = theoretical_order(document, source, name);
     ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
@@ -296,14 +315,20 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
       const double roundoff =
           scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
+      if (name.starts_with("growth_rate") && difference <= roundoff) continue;  // may be unstable
       const bool is_nodal = !order && difference <= 100 * roundoff;
       const bool is_coarse = difference > kLargeDifference * std::max(std::abs(values[i]), scale) ||
                              (name == "frequency_Hz" && values[i] > resolved);
+      // The same value on two coarse meshes is no evidence, such as that of a free bar with one
+      // element and with two.
+      const bool is_blind = is_coarse && difference <= 100 * roundoff;
       const double p = is_coarse ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
       band.half_width[i] = roundoff + (is_nodal ? difference
                                                 : kSafetyFactor * difference *
                                                       (companion.finer ? power : 1) / (power - 1));
+      if (is_blind) band.half_width[i] = kLargeDifference * std::max(std::abs(values[i]), scale);
+      if (source == ErrorSource::step) band.half_width[i] += sampling_error(result, name);
       if (!is_nodal) band.order = p;
       band.asymptotic = band.asymptotic && !is_coarse;
     }
@@ -357,34 +382,51 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
   return estimates;
 }
 
+namespace {
+
+/// Returns true if a frequency or load factor has no counterpart on the other level, or if a curve
+/// has fewer than two common samples.
+bool has_gaps(const ErrorBands& bands) {
+  return std::ranges::any_of(bands, [](const auto& item) {
+    const std::vector<double>& width = item.second.half_width;
+    const auto known = std::ranges::count_if(width, [](double x) { return std::isfinite(x); });
+    const bool is_listed = item.first == "frequency_Hz" || item.first == "load_factor";
+    return is_listed ? known < std::ssize(width) : width.size() > 1 && known < 2;
+  });
+}
+
+}  // namespace
+
 ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& result,
                                const References& references) {
   ErrorEstimates found;
   std::map<ErrorSource, ErrorBands> bands;
   solver::Counters counters;
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
-    auto companion = adjacent_refinement_level(document, source, Refine::coarser, &result);
-    while (companion) {
+    std::string used, failed;
+    for (const Refine refine : {Refine::coarser, Refine::finer}) {
+      const auto companion = adjacent_refinement_level(document, source, refine, &result);
+      if (!companion) continue;
+      if (!used.empty() && (used == companion->words || !has_gaps(bands[source]))) continue;
+      failed = companion->words;
+      if (companion->finer &&
+          unknown_count(model_at_path_start(read_case_model(document))) > kMaxFinerUnknowns)
+        continue;
       try {
         companion->document.validate("case");
         const auto other =
             analyze(companion->document, references, {.drawing = has_shapes(result)});
         counters += other.counters;
-        if (other.outcome.solved() && (companion->finer || !is_same_result(result, other)))
-          bands[source] = error_bands(result, other, source, *companion);
+        if (!other.outcome.solved() || (!companion->finer && is_same_result(result, other)))
+          continue;
+        bands[source] = error_bands(result, other, source, *companion);
+        used = companion->words;
       } catch (const InputError&) {  // fewer modes than the case requests
       }
-      if (bands.contains(source)) {
-        found.companions += (found.companions.empty() ? "" : "; ") + companion->words;
-        break;
-      }
-      if (companion->finer) {
-        found.reason = "the computation with " + companion->words + " has no solution";
-        companion.reset();
-      } else {
-        companion = adjacent_refinement_level(document, source, Refine::finer, &result);
-      }
     }
+    if (!used.empty()) found.companions += (found.companions.empty() ? "" : "; ") + used;
+    if (used.empty() && !failed.empty())
+      found.reason = "the computation with " + failed + " has no solution or is too expensive";
   }
   if (bands.empty() && found.reason.empty() && !is_exact(document))
     found.reason = "the analysis has neither a mesh nor steps";

@@ -33,19 +33,14 @@ struct Companion {
 /// accuracy do not converge.
 [[nodiscard]] bool is_estimated(const std::string& quantity);
 
+/// Returns, for each mode, the index of the mode of the other result with the same shape. The index
+/// is empty if no mode matches. Modes without a drawn shape are matched by their numbers.
+[[nodiscard]] std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
+                                                                    const AnalysisResult& other);
+
 /// Returns true if the results on two refinement levels are the same to the last bit. Both levels
 /// then had the same time steps, and their difference is no estimate of the error.
 [[nodiscard]] bool is_same_result(const AnalysisResult& result, const AnalysisResult& other);
-
-/// Returns the order of convergence, which is the lowest order of all discretized parts of the
-/// case.
-/// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
-/// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963).
-/// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
-/// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
-/// if nodal values are exact in theory.
-[[nodiscard]] std::optional<double> theoretical_order(const Document& document, ErrorSource source,
-                                                      const std::string& quantity);
 
 /// Bands of the discretization error about the values of a quantity, with 95 % confidence.
 struct ErrorBand {

@@ -2,73 +2,59 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
-#include "harness/analysis/case_effects.h"
-#include "harness/scene/case_model.h"
-#include "harness/scene/drawing.h"
-#include "harness/scene/rethrow_as_input.h"
-#include "solver/linear/modes.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {
 
-/// Displacement of a point in each mode, by the name of the point.
-using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;
-
-/// Number of modes computed in addition to the requested modes. They complete the last set of equal
-/// frequencies.
-constexpr solver::Index kExtraModes = 4;
-constexpr int kStations = 8;
 /// Relative distance below which adjacent frequencies form one set.
 constexpr double kRepeatedTolerance = 1e-6;
 /// Overlap (squared cosine between shapes) below which two sets of modes do not match.
 constexpr double kMinOverlap = 0.5;
 
-void sample_nodes(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
-  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
-    const std::string& name = system.model.nodes[i].name;
-    if (name.empty()) continue;
-    const auto& coordinates = system.coordinates.node[i];
-    places["node " + name].emplace_back(u[coordinates[0]], u[coordinates[1]]);
+/// Returns pairs of indices of common points of two drawings.
+std::vector<std::pair<std::size_t, std::size_t>> common_points(
+    const std::vector<results::Point>& a, const std::vector<results::Point>& b) {
+  std::vector<std::pair<std::size_t, std::size_t>> common;
+  double size = 0;
+  for (const auto& [x, y] : a) size = std::max({size, std::abs(x), std::abs(y)});
+  std::map<std::pair<long, long>, std::size_t> place_of;
+  const auto key = [&](const results::Point& p) {
+    return std::pair(std::lround(1e8 * p.first / size), std::lround(1e8 * p.second / size));
+  };
+  for (std::size_t j = 0; j < b.size(); ++j) place_of.emplace(key(b[j]), j);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto found = place_of.find(key(a[i]));
+    if (found != place_of.end()) common.emplace_back(i, found->second);
   }
+  if (a.size() != b.size() || 2 * common.size() >= a.size()) return common;
+  common.clear();
+  for (std::size_t i = 0; i < a.size(); ++i) common.emplace_back(i, i);
+  return common;
 }
 
-void sample_members(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
-  std::size_t first = 0;
-  for (const solver::Member& member : system.model.members) {
-    const auto count = static_cast<std::size_t>(member.elements);
-    for (int k = 1; k < kStations; ++k) {
-      const double along = static_cast<double>(k) / kStations * static_cast<double>(count);
-      const std::size_t element = std::min(count - 1, static_cast<std::size_t>(along));
-      places["member " + member.name + " " + std::to_string(k)].push_back(displacement_at_fraction(
-          system.mesh.frame[first + element], u, along - static_cast<double>(element)));
+SampledModes sampled(const std::vector<double>& frequency,
+                     const std::vector<results::Shape>& shapes,
+                     const std::vector<std::size_t>& points) {
+  std::size_t count = std::min(shapes.size(), frequency.size());
+  while (count > 0 && count < frequency.size() &&
+         frequency[count] - frequency[count - 1] <= kRepeatedTolerance * frequency[count])
+    --count;
+  SampledModes modes;
+  modes.frequency.assign(frequency.begin(), frequency.begin() + static_cast<std::ptrdiff_t>(count));
+  modes.shape.resize(2 * std::ssize(points), static_cast<solver::Index>(count));
+  for (std::size_t m = 0; m < count; ++m)
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const auto& [x, y] = shapes[m].displacement.at(points[n]);
+      const auto row = 2 * static_cast<solver::Index>(n), column = static_cast<solver::Index>(m);
+      modes.shape(row, column) = std::isfinite(x) ? x : 0;
+      modes.shape(row + 1, column) = std::isfinite(y) ? y : 0;
     }
-    first += count;
-  }
-}
-
-std::pair<std::vector<double>, Places> solve_and_sample(const Document& document) {
-  const JsonView analysis = JsonView(document)["analysis"];
-  if (!analysis.has("modes")) throw analysis.error("mode shapes require the analysis 'modes'");
-  CaseModel case_model = read_case_model(document);
-  case_model.effects = choose_effects(document, case_model).chosen;
-  const solver::System system = solver::assemble(build_model(case_model, 0), case_model.effects);
-  solver::ModesOptions options;
-  options.count =
-      std::min(system.K.rows(), analysis["modes"]["count"].get<solver::Index>() + kExtraModes);
-  const solver::ModalSolution modes = solver::solve_modes(system, options);
-  if (!modes.outcome.solved())
-    throw analysis.error("the modes could not be computed: " + modes.outcome.reason);
-  std::pair<std::vector<double>, Places> seen;
-  for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
-    seen.first.push_back(modes.frequency[i]);
-    const Eigen::VectorXd u = system.T * modes.shape.col(i);
-    sample_nodes(system, u, seen.second);
-    sample_members(system, u, seen.second);
-  }
-  return seen;
+  return modes;
 }
 
 std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequency) {
@@ -96,27 +82,16 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
 
 }  // namespace
 
-std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
-  const auto located = [](const Document& document) {
-    return rethrow_as_input_error(document, [&] { return solve_and_sample(document); });
-  };
-  const auto [frequency_a, places_a] = located(a);
-  const auto [frequency_b, places_b] = located(b);
-  std::vector<std::string> common;
-  for (const auto& item : places_a)
-    if (places_b.count(item.first) > 0) common.push_back(item.first);
-  const auto collect = [&](const std::vector<double>& frequency, const Places& places) {
-    SampledModes modes{frequency, Eigen::MatrixXd(2 * static_cast<solver::Index>(common.size()),
-                                                  static_cast<solver::Index>(frequency.size()))};
-    for (std::size_t p = 0; p < common.size(); ++p) {
-      const std::vector<Eigen::Vector2d>& at = places.at(common[p]);
-      for (std::size_t m = 0; m < at.size(); ++m)
-        modes.shape.block<2, 1>(2 * static_cast<solver::Index>(p), static_cast<solver::Index>(m)) =
-            at[m];
-    }
-    return modes;
-  };
-  return {collect(frequency_a, places_a), collect(frequency_b, places_b)};
+std::pair<SampledModes, SampledModes> sample_modes(const std::vector<double>& frequency_a,
+                                                   const results::Drawing& a,
+                                                   const std::vector<double>& frequency_b,
+                                                   const results::Drawing& b) {
+  std::vector<std::size_t> in_a, in_b;
+  for (const auto& [i, j] : common_points(a.nodes, b.nodes)) {
+    in_a.push_back(i);
+    in_b.push_back(j);
+  }
+  return {sampled(frequency_a, a.shapes, in_a), sampled(frequency_b, b.shapes, in_b)};
 }
 
 std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b) {

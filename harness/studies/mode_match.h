@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "harness/input/document.h"
+#include "harness/results/run_results.h"
 
 /// Matches the modes of two models by their shapes, not by their numbers.
 namespace trammel::harness {
@@ -14,11 +14,14 @@ struct SampledModes {
   Eigen::MatrixXd shape;          ///< displacement at common points x mode
 };
 
-/// Samples the modes of both cases at nodes with equal names and at stations along members with
-/// equal names. At stations, the displacement is interpolated by the cubic beam shape functions.
-/// @throws InputError  if a case has no modes or is singular.
-[[nodiscard]] std::pair<SampledModes, SampledModes> sample_modes(const Document& a,
-                                                                 const Document& b);
+/// Returns the drawn modes of two results at common points of their drawings: the points with equal
+/// coordinates, or the points with equal numbers if the dimensions of equal meshes differ. Modes
+/// without a drawn shape are omitted, and so are sets of equal frequencies with some shapes that
+/// are not drawn.
+/// @param frequency_a, frequency_b  natural frequencies of the results, ascending [Hz]
+[[nodiscard]] std::pair<SampledModes, SampledModes> sample_modes(
+    const std::vector<double>& frequency_a, const results::Drawing& a,
+    const std::vector<double>& frequency_b, const results::Drawing& b);
 
 /// Set of modes of one model and the most similar set of the other model. Frequencies within a
 /// relative distance of 1e-6 form one set, because their single shapes are arbitrary.

@@ -161,11 +161,12 @@ class ValidationStudy {
   void take_errors(const results::ErrorEstimates& errors) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto* found = errors.find(places_[i].check->quantity);
-      const Number half_width =
+      const double half_width =
           found == nullptr
-              ? Number()
-              : found->error_half_width(places_[i].index, value_at(quantities_, places_[i]));
-      study_.comparisons[i].u_num = half_width.value_or(0) / kGciToStandard;
+              ? 0  // no discretization
+              : found->error_half_width(places_[i].index, value_at(quantities_, places_[i]))
+                    .value_or(kNaN);
+      study_.comparisons[i].u_num = half_width / kGciToStandard;
     }
   }
 

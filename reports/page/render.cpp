@@ -14,10 +14,10 @@ namespace trammel::reports {
 namespace {
 
 /// Templates that other templates can include.
-constexpr std::array<const char*, 17> kPartials = {
-    "cell", "checks", "claims_table", "counts", "families",  "figure",
-    "find", "front",  "head",         "matrix", "questions", "roles",
-    "rows", "study",  "summary",      "table",  "tables"};
+constexpr std::array<const char*, 18> kPartials = {
+    "cell",   "checks", "claims_table", "counts",  "error_coverage", "families",
+    "figure", "find",   "front",        "head",    "matrix",         "questions",
+    "roles",  "rows",   "study",        "summary", "table",          "tables"};
 
 /// Typesets the powers of ten in an HTML text, except in code, styles, scripts and metadata.
 std::string with_powers_in_text(const std::string& html) {
