@@ -61,11 +61,9 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 
 std::string unknown_name_message(const std::string& expected, const std::string& name,
                                  const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestList = 160;
   const std::string near = did_you_mean(name, candidates), all = join(candidates, "or");
-  const bool is_listed = near.empty() && !all.empty() && all.size() <= kLongestList;
-  return "expected " + expected + " (got '" + printable(name) + "')" +
-         (is_listed ? "; expected " + all : near);
+  return "expected " + expected + " (got '" + printable(name) + "')" +  // a short list is complete
+         (near.empty() && !all.empty() && all.size() <= 160 ? "; expected " + all : near);
 }
 
 std::string quoted(const std::string& word) {

@@ -42,11 +42,9 @@ fs::path find_one(const std::string& word, const std::multimap<std::string, fs::
     if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
     std::vector<std::string> known;
     for (const auto& item : studies) known.push_back(item.first);
-    const std::string hint = did_you_mean(word, known);
-    if (hint.empty()) throw;
-    throw InputError(
-        "expected the name or 'family' of a study in cases/cost, a case or a file (got '" +
-        printable(word) + "')" + hint);
+    if (nearest_word(word, known).empty()) throw;
+    throw InputError(unknown_name_message(
+        "the name or 'family' of a study in cases/cost, a case or a file", word, known));
   }
 }
 
@@ -64,13 +62,15 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     const auto [begin, end] = named.equal_range(word);
     std::for_each(begin, end, [&](const auto& item) { add(item.second); });
     if (begin != end) continue;
-    const fs::path file = find_one(word, named);
+    const auto [name, chosen] = split_case_name(word);
+    const fs::path file = find_one(name, named);
     if (is_cost_study(file)) {
       add(file);
       continue;
     }
     any_case = true;
-    const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
+    std::string variant = chosen.empty() ? options.variant : chosen;
+    if (variant.empty()) variant = kBaseVariant;
     studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
   }
   if (!any_case && (!options.sweeps.empty() || !options.variant.empty()))

@@ -52,9 +52,9 @@ int export_command(const CommandOptions& options, const Renderers& /*renderers*/
 }
 
 int solve_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const Case given = load_case(options.word);
+  const auto [given, variant] = load_case_variant(options.word);
   RunOptions run_options;
-  run_options.variant = kBaseVariant;
+  run_options.variant = variant.empty() ? kBaseVariant : variant;
   run_options.memory_bytes = options.memory_bytes;
   const std::vector<Run> runs = run_cases({given}, References(), run_options);
   require_uninterrupted(runs);

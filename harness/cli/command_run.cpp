@@ -110,6 +110,14 @@ void print_run_errors(const std::vector<Run>& runs) {
       std::cerr << run.reason << '\n';
 }
 
+/// Prints the errors of refused runs if all runs are refused. Earlier results are then kept.
+bool are_refused(const std::vector<Run>& runs) {
+  const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
+  if (!std::ranges::all_of(runs, is_refused)) return false;
+  print_run_errors(runs);
+  return true;
+}
+
 /// Selects the cases with the given names or labels; all cases of the catalogue if the options
 /// contain neither names nor labels.
 Selection select(const CommandOptions& options) {
@@ -352,11 +360,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   exit_on_signals(kInterrupted);
   const References references;
   std::vector<Run> computed = compute(selection, references, options);
-  const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
-  if (std::ranges::all_of(computed, is_refused)) {  // earlier results are kept
-    print_run_errors(computed);
-    return 2;
-  }
+  if (are_refused(computed)) return 2;
   const results::Results results = collect_results(std::move(computed), selection.cases, references,
                                                    store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
@@ -398,6 +402,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_uninterrupted(computed);
+  if (are_refused(computed)) return 2;
   results::Results results = collect_results(std::move(computed), selection.cases, references,
                                              store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;

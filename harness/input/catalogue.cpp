@@ -80,8 +80,8 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
   if (looks_like_file && fs::exists(file, error)) return file;
   if (fs::path found = file_of_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file (not found)");
-  throw InputError(
-      unknown_name_message("a case of the catalogue or a file", name_or_file, names()));
+  throw InputError(unknown_name_message("a case of the catalogue or a file that ends in .json",
+                                        name_or_file, names()));
 }
 
 fs::path Catalogue::find_base_case(const std::string& name_or_file,

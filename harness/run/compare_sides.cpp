@@ -211,16 +211,14 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
 
 /// Compares the frequencies of modes with similar shapes instead of equal numbers, if frequencies
 /// have changed or the sides are variants.
-void match_by_shape(const Runs& runs, const std::vector<const Document*>& documents,
-                    ComparedRun& found) {
+void match_by_shape(const Runs& runs, bool are_variants, ComparedRun& found) {
   const auto by_number = [](const ComparedNumber& number) {
     return number.quantity == "frequency_Hz" || number.quantity == "frequency_gap";
   };
   const bool changed = std::ranges::any_of(found.numbers, [](const ComparedNumber& number) {
     return number.quantity == "frequency_Hz" && number.changed;
   });
-  const bool computed = documents.front() != nullptr;
-  if (computed ? found.info.analysis != "modes" : !changed) return;
+  if (are_variants ? found.info.analysis != "modes" : !changed) return;
   if (std::ranges::any_of(runs,
                           [](const auto* run) { return run->quantity("frequency_Hz") == nullptr; }))
     return;
@@ -263,14 +261,14 @@ bool same_bits(const Runs& runs) {
 }
 
 ComparedRun compare_runs(const std::string& name, const Runs& runs,
-                         const std::vector<std::string>& labels,
-                         const std::vector<const Document*>& documents, results::CaseInfo info) {
+                         const std::vector<std::string>& labels, bool are_variants,
+                         results::CaseInfo info) {
   ComparedRun found;
   found.name = name;
   found.info = std::move(info);
-  if (documents.front() != nullptr || !same_bits(runs)) add_numbers(runs, labels, found);
-  match_by_shape(runs, documents, found);
-  if (documents.front() == nullptr) add_verdicts(runs, labels, found);
+  if (are_variants || !same_bits(runs)) add_numbers(runs, labels, found);
+  match_by_shape(runs, are_variants, found);
+  if (!are_variants) add_verdicts(runs, labels, found);
   found.changed = !found.remarks.empty();
   const auto count = [&](const ComparedValue& value) {
     if (value.changed) found.share = std::max(found.share, value.share);
@@ -426,11 +424,10 @@ void sort_and_drop(SideComparison& comparison) {
 SideComparison compare_sides(std::vector<Side> sides, bool series) {
   SideComparison comparison;
   std::vector<std::string> labels;
-  std::vector<const Document*> documents;
+  const bool are_variants = sides.front().document.has_value();
   for (const Side& side : sides) {
     comparison.sides.push_back(side_of(side));
     labels.push_back(side.label);
-    documents.push_back(side.document ? &*side.document : nullptr);
   }
   std::vector<std::map<std::string, double>> errors(sides.size());
   std::size_t lost = 0;
@@ -454,9 +451,9 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
         comparison.sides[s].cpu_s += runs[s].cost.cpu_s;
         comparison.sides[s].work += runs[s].cost.counted_work();
       }
-      found = compare_runs(name, loaded, labels, documents,
+      found = compare_runs(name, loaded, labels, are_variants,
                            sides.front().results.case_info(runs.front().case_id));
-      if (same_bits(loaded) && !found.changed && documents.front() == nullptr) {
+      if (same_bits(loaded) && !found.changed && !are_variants) {
         ++comparison.same;
         continue;
       }
@@ -472,7 +469,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
       side.relative_time = side.cpu_s / comparison.sides.front().cpu_s;
   compare_errors(errors, comparison.sides);
   comparison.conclusion =
-      (documents.front() ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
+      (are_variants ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
       (lost > 0 ? "; " + count_of(lost, "run") + " without series, which the stores lack" : "") +
       ".";
   return comparison;

@@ -21,11 +21,10 @@ namespace {
 using results::ErrorEstimate;
 using results::ErrorEstimates;
 
-constexpr double kSafetyFactor = 3;         // Roache's factor if the order is not observed
-constexpr double kLargeDifference = 0.1;    // relative; outside of the asymptotic range
-constexpr double kMaxFinerUnknowns = 1000;  // largest model with a finer companion
-constexpr std::size_t kMaxEntries = 12;  // a quantity with more entries is a curve, with one error
-                                         // for all
+constexpr double kSafetyFactor = 3;       // Roache's factor if the order is not observed
+constexpr double kLargeDifference = 0.1;  // relative; outside of the asymptotic range
+constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
+                                          // for all
 
 /// Returns the name of a quantity without "steady_" or "peak_".
 std::string base_name(const std::string& name) {
@@ -230,12 +229,14 @@ bool is_estimated(const std::string& name) {
 std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                       const AnalysisResult& other) {
   const std::vector<double>& frequency = own.quantities.at("frequency_Hz").values;
+  const std::vector<double>& others = other.quantities.at("frequency_Hz").values;
   std::vector<std::optional<std::size_t>> places(frequency.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
   if (!has_shapes(own) || !has_shapes(other)) return places;
-  const auto [a, b] = sample_modes(frequency, *own.drawing,
-                                   other.quantities.at("frequency_Hz").values, *other.drawing);
-  std::fill_n(places.begin(), a.frequency.size(), std::nullopt);
+  const auto [a, b] = sample_modes(frequency, *own.drawing, others, *other.drawing);
+  for (std::size_t i = 0; i < a.frequency.size(); ++i)
+    if (i >= others.size() || std::abs(frequency[i] - others[i]) > kLargeDifference * frequency[i])
+      places[i].reset();
   for (const ModeMatch& match : match_modes(a, b))
     for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
       places[match.a[k]] = match.b[k];
@@ -409,9 +410,8 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
       if (!companion) continue;
       if (!used.empty() && (used == companion->words || !has_gaps(bands[source]))) continue;
       failed = companion->words;
-      if (companion->finer &&
-          unknown_count(model_at_path_start(read_case_model(document))) > kMaxFinerUnknowns)
-        continue;
+      const auto model = [&] { return model_at_path_start(read_case_model(document)); };
+      if (companion->finer && unknown_count(model()) > 1000) continue;
       try {
         companion->document.validate("case");
         const auto other =

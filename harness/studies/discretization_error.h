@@ -33,8 +33,9 @@ struct Companion {
 /// accuracy do not converge.
 [[nodiscard]] bool is_estimated(const std::string& quantity);
 
-/// Returns, for each mode, the index of the mode of the other result with the same shape. The index
-/// is empty if no mode matches. Modes without a drawn shape are matched by their numbers.
+/// Returns, for each mode, the index of the mode of the other result with the same shape. Modes
+/// without a counterpart are matched by their numbers if their frequencies differ by at most 10 %,
+/// and modes without a drawn shape always. The index is empty if no mode matches.
 [[nodiscard]] std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                                     const AnalysisResult& other);
 
