@@ -113,7 +113,7 @@ void print_run_errors(const std::vector<Run>& runs) {
 /// Prints the errors of refused runs if all runs are refused. Earlier results are then kept.
 bool are_refused(const std::vector<Run>& runs) {
   const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
-  if (!std::ranges::all_of(runs, is_refused)) return false;
+  if (runs.empty() || !std::ranges::all_of(runs, is_refused)) return false;
   print_run_errors(runs);
   return true;
 }

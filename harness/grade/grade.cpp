@@ -92,9 +92,9 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   try {
     if (!ended_without_answer(outcome, adapter.limits, run)) {
       const bool cannot = outcome.status == kCannot;
-      const std::string text = one_line(outcome.text);
+      const std::string said = last_line(outcome.text);
       if (cannot)
-        end_as(run, Status::cannot, text.empty() ? "exit status 4 without a reason" : text);
+        end_as(run, Status::cannot, "exit status 4" + (said.empty() ? " without a reason" : said));
       if (!cannot || fs::exists(folder / "result.json", error))
         read_adapter_answer(folder / "result.json", json.at("export"), run);
       if (cannot) run.status = Status::cannot;

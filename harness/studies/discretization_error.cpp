@@ -107,7 +107,8 @@ double step_order(const Document& document) {
 
 /// Returns the order of convergence, which is the lowest order of all discretized parts.
 /// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
-/// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963).
+/// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963), and for the
+/// conditions named in `mesh_order`.
 /// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
 /// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
 /// if nodal values are exact in theory.
@@ -156,6 +157,17 @@ bool has_shapes(const AnalysisResult& result) {
   return result.drawing && !result.drawing->shapes.empty() &&
          result.drawing->shapes.front().label.starts_with("mode") &&
          result.quantities.contains("frequency_Hz");
+}
+
+/// Returns true if a frequency or load factor has no counterpart on the other level, or if a curve
+/// has fewer than two common samples.
+bool has_gaps(const ErrorBands& bands) {
+  return std::ranges::any_of(bands, [](const auto& item) {
+    const std::vector<double>& width = item.second.half_width;
+    const auto known = std::ranges::count_if(width, [](double x) { return std::isfinite(x); });
+    const bool is_listed = item.first == "frequency_Hz" || item.first == "load_factor";
+    return is_listed ? known < std::ssize(width) : width.size() > 1 && known < 2;
+  });
 }
 
 /// Scales of the quantities. An error divided by the scale is a relative error.
@@ -255,10 +267,9 @@ std::optional<Companion> adjacent_refinement_level(const Document& document, Err
                                                    Refine refine, const AnalysisResult* result) {
   if (is_closed_form(inner_analysis_kind(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
-  const JsonPointer varied("/analysis/study/pointers/0");
-  if (is_mesh && document.value().contains(varied) &&
-      document.value().at(varied) == mesh_pointer(document))
-    return std::nullopt;
+  const JsonPointer varied("/analysis/study/pointers");  // by a study, which would undo the patch
+  const Json pointers = document.value().value(varied, Json::array());
+  if (is_mesh && contains(pointers, Json(mesh_pointer(document)))) return std::nullopt;
   const bool has_step = result != nullptr && result->quantities.contains("largest_step_s");
   const double step = has_step ? result->quantities.at("largest_step_s").values.front() : 0;
   const auto patch_of = [&](const Document& given, Refine how) {
@@ -382,21 +393,6 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
   }
   return estimates;
 }
-
-namespace {
-
-/// Returns true if a frequency or load factor has no counterpart on the other level, or if a curve
-/// has fewer than two common samples.
-bool has_gaps(const ErrorBands& bands) {
-  return std::ranges::any_of(bands, [](const auto& item) {
-    const std::vector<double>& width = item.second.half_width;
-    const auto known = std::ranges::count_if(width, [](double x) { return std::isfinite(x); });
-    const bool is_listed = item.first == "frequency_Hz" || item.first == "load_factor";
-    return is_listed ? known < std::ssize(width) : width.size() > 1 && known < 2;
-  });
-}
-
-}  // namespace
 
 ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& result,
                                const References& references) {
