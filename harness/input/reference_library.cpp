@@ -5,6 +5,7 @@
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
+#include "harness/input/catalogue.h"
 #include "harness/input/document.h"
 #include "references/data/family.h"
 
@@ -18,11 +19,6 @@ constexpr const char* kOwnFile = "references.json";
 
 fs::path stored() {
   return data_root() / "references" / "values";
-}
-
-bool is_in_catalogue(const fs::path& folder) {
-  const fs::path inside = fs::relative(folder, data_root() / "cases");
-  return !inside.empty() && *inside.begin() != "..";
 }
 
 /// Returns references.json next to a user's case; empty for cases of the catalogue.

@@ -12,7 +12,6 @@ namespace {
 // elements change natural frequencies by 0.1 %.
 constexpr double kDegreesOfElement = 7.5;
 constexpr double kToleranceRatio = 10;
-constexpr solver::Index kMaxSamples = 50000;  // half of the largest number in the schema
 
 const Json* find(const Json& document, const std::string& pointer) {
   const JsonPointer at(pointer);
@@ -37,19 +36,12 @@ bool is_bar(const Json& model, const Json& member) {
          !member.contains("restrained_motions");
 }
 
-/// Returns twice or half a number of elements; empty if an odd number would be halved.
-std::optional<solver::Index> refined(solver::Index count, Refine refine) {
-  if (refine == Refine::finer) return 2 * count;
-  if (count % 2 != 0) return std::nullopt;
-  return count / 2;
-}
-
 /// Writes twice or half a number of elements into a patch.
 /// @returns false if an odd number would be halved
 bool set_refined_count(Json& place, solver::Index count, Refine refine) {
-  const auto found = refined(count, refine);
-  if (found) place = *found;
-  return found.has_value();
+  if (refine == Refine::coarser && count % 2 != 0) return false;
+  place = refine == Refine::finer ? 2 * count : count / 2;
+  return true;
 }
 
 bool refine_links(const Document& document, Refine refine, Json& patch) {
@@ -137,38 +129,26 @@ bool has_step_tolerance(const Document& document) {
   return analysis.contains("tolerance") || analysis.contains("error_control");
 }
 
-std::optional<Sampling> output_sampling(const Document& document) {
-  const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
-  const Json& analysis = document.value().at(JsonPointer(place));
-  if (kind == "harmonic") return Sampling{place + "/points", analysis.value("points", 101) - 1};
-  if (kind != "transient") return std::nullopt;
-  const double steps =
-      std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
-  return Sampling{place + "/samples",
-                  analysis.value("samples", std::min(10000, static_cast<int>(steps)))};
-}
-
-Json sampling_patch(const Document& document, solver::Index intervals) {
-  const Sampling sampling = *output_sampling(document);
-  const bool counts_points = sampling.pointer.ends_with("/points");
-  return patch_setting_value(document.value(), sampling.pointer,
-                             intervals + (counts_points ? 1 : 0));
+bool has_exact_steps(const Document& document) {
+  const std::string kind = inner_analysis_kind(document);
+  const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
+  const Json* inertia = find(analysis, "/effects/elastic_inertia");
+  return analysis.value("modal_superposition", false) ||
+         (analysis.contains("method") && analysis["method"] == "modal-superposition") ||
+         (kind == "elastodynamics" && inertia != nullptr && *inertia == false);
 }
 
 std::optional<Json> time_step_patch(const Document& document, Refine refine, double largest_step) {
   const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
-  const bool is_exact =
-      analysis.value("modal_superposition", false) ||
-      (analysis.contains("method") && analysis["method"] == "modal-superposition");
   const double longer = refine == Refine::finer ? 0.5 : 2;
   const double looser = refine == Refine::finer ? 1 / kToleranceRatio : kToleranceRatio;
   Json patch = Json::object();
   if (kind == "forward-dynamics") {
     patch["tolerance"] = looser * analysis.value("tolerance", 1e-10);
-  } else if (is_exact || kind == "grnn" ||
+  } else if (has_exact_steps(document) || kind == "grnn" ||
              !(analysis.contains("step_s") || has_step_tolerance(document))) {
-    if (kind != "transient" && kind != "harmonic") return std::nullopt;
+    return std::nullopt;
   } else if (analysis.contains("tolerance")) {
     patch["tolerance"] = looser * analysis["tolerance"].get<double>();
     if (analysis.contains("output_step_s") && refine == Refine::finer)
@@ -179,17 +159,14 @@ std::optional<Json> time_step_patch(const Document& document, Refine refine, dou
     if (step > 0) patch["step_s"] = longer * step;
   } else {
     const double step = longer * analysis["step_s"].get<double>();
+    if (kind == "transient" && refine == Refine::coarser && analysis.contains("samples") &&
+        step * analysis["samples"].get<double>() >
+            (1 + 1e-9) * analysis["duration_s"].get<double>())
+      return std::nullopt;  // steps end at the samples
     patch["step_s"] = step;
     if (analysis.value("output_step_s", step) < step) patch["output_step_s"] = step;
   }
-  Json all = patch_setting_value(document.value(), place, patch);
-  if (const auto sampling = output_sampling(document)) {  // peak values are determined from samples
-    const auto intervals = refined(sampling->intervals, refine);
-    const bool fits = intervals && *intervals <= kMaxSamples;
-    if (!fits && kind == "harmonic") return std::nullopt;
-    all.merge_patch(sampling_patch(document, fits ? *intervals : sampling->intervals));
-  }
-  return all;
+  return patch_setting_value(document.value(), place, patch);
 }
 
 std::string mesh_pointer(const Document& document) {

@@ -37,8 +37,7 @@ enum class Refine { coarser, finer };
 ///   as well; `largest_step` replaces it if the case does not state it. A finer step of large
 ///   motion also halves the interval "output_step_s" between recorded times.
 ///
-/// The result is empty without a mesh or step. It is also empty if an odd number of elements, or of
-/// intervals between the frequencies of a harmonic response, would be halved.
+/// The result is empty without a mesh or step, and if an odd number of elements would be halved.
 [[nodiscard]] std::optional<Json> mesh_patch(const Document& document, Refine refine);
 [[nodiscard]] std::optional<Json> time_step_patch(const Document& document, Refine refine,
                                                   double largest_step = 0);
@@ -46,14 +45,9 @@ enum class Refine { coarser, finer };
 /// Return the JSON pointer of the key that determines the mesh or the time step, for messages.
 [[nodiscard]] std::string mesh_pointer(const Document& document);
 [[nodiscard]] std::string time_step_pointer(const Document& document);
-/// Number of intervals between recorded times or, in a harmonic response, between frequencies.
-struct Sampling {
-  std::string pointer;
-  solver::Index intervals = 0;
-};
-[[nodiscard]] std::optional<Sampling> output_sampling(const Document& document);
-/// Returns a patch that sets the number of intervals between recorded times or frequencies.
-[[nodiscard]] Json sampling_patch(const Document& document, solver::Index intervals);
+/// Returns true for modal superposition and for equilibria without elastic inertia. Their results
+/// at a time do not depend on the time step.
+[[nodiscard]] bool has_exact_steps(const Document& document);
 /// Returns true if the time steps are controlled by an error tolerance.
 [[nodiscard]] bool has_step_tolerance(const Document& document);
 

@@ -28,8 +28,12 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
 Json fixed_outputs(const Document& document) {
   const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
-  if (const auto sampling = output_sampling(document))
-    return sampling_patch(document, sampling->intervals);
+  if (kind == "transient") {
+    const double steps = analysis["duration_s"].get<double>() / analysis["step_s"].get<double>();
+    const int samples =
+        analysis.value("samples", static_cast<int>(std::min(1e4, std::ceil(steps))));
+    return patch_setting_value(document.value(), place + "/samples", samples);
+  }
   if (kind != "large-motion") return Json::object();
   return patch_setting_value(document.value(), place + "/output_step_s",
                              analysis.value("output_step_s", analysis["step_s"]));
@@ -57,31 +61,13 @@ std::string setting_of(const Document& document) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Returns error bands with the safety factor 1.25 instead of 3, if the observed order of three
-/// refinement levels agrees with the theoretical order. Source: Roache 1998, Verification and
-/// Validation in Computational Science and Engineering, 5.9.
-ErrorBands narrowed(ErrorBands bands, const ErrorBands& coarser, double ratio) {
-  constexpr double kFactor = 1.25 / 3, kNearOrder = 0.5;
-  for (auto& [name, band] : bands) {
-    const auto before = coarser.find(name);
-    if (before == coarser.end() || !band.order || !band.asymptotic) continue;
-    const std::vector<double>& wider = before->second.half_width;
-    for (std::size_t i = 0; i < std::min(wider.size(), band.half_width.size()); ++i) {
-      const double order = std::log(wider[i] / band.half_width[i]) / std::log(ratio);
-      if (std::abs(order - *band.order) < kNearOrder) band.half_width[i] *= kFactor;
-    }
-  }
-  return bands;
-}
-
 class Search {
  public:
   Search(const Document& document, const AccuracyRequest& request, const References& references)
       : request_(request),
         references_(references),
         current_(document),
-        outputs_(fixed_outputs(document)),
-        sampling_(output_sampling(document)) {
+        outputs_(fixed_outputs(document)) {
     current_.apply_patch("recorded times", "", outputs_);
   }
 
@@ -103,7 +89,6 @@ class Search {
       found_.errors.reason += "; the results are those of " + setting_of(current_);
     }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
-    keep_requested_samples();
     found_.asked = asked_;
     found_.errors.companions = "the levels of the search";
     found_.errors.counters = named_counters(counters_);
@@ -132,26 +117,6 @@ class Search {
     return !analysis.contains("output_step_s") || !analysis.contains("step_s") ||
            2 * analysis["step_s"].get<double>() <=
                (1 + 1e-9) * analysis["output_step_s"].get<double>();
-  }
-
-  /// Removes the samples that refinements have added between the samples of the case.
-  void keep_requested_samples() {
-    if (!sampling_) return;
-    const auto factor = output_sampling(current_)->intervals / sampling_->intervals;
-    Quantities& quantities = found_.result.quantities;
-    const auto axis = quantities.find(quantities.contains("time_s") ? "time_s" : "frequency_Hz");
-    if (factor < 2 || axis == quantities.end()) return;
-    const std::size_t size = axis->second.values.size();
-    const auto thin = [&](std::vector<double>& values) {
-      if (values.size() != size) return;
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < size; i += factor) values[kept++] = values[i];
-      values.resize(kept);
-    };
-    for (auto& [name, quantity] : quantities) {
-      thin(quantity.values);
-      thin(quantity.roundoff);
-    }
   }
 
   /// @returns true if the document has a solution
@@ -237,18 +202,21 @@ class Search {
       return false;
     }
     const AnalysisResult coarse = found_.result;
-    if (!sampling_) finer->document.apply_patch("recorded times", "", outputs_);
+    finer->document.apply_patch("recorded times", "", outputs_);
     if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
     }
-    ErrorBands two_levels =
-        error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
+    const Companion coarser{current_, false, finer->ratio, ""};
+    ErrorBands two_levels = error_bands(found_.result, coarse, source, coarser);
     current_ = finer->document;
-    bands_[source] = narrowed(two_levels, two_levels_[source], finer->ratio);
+    bands_[source] = with_observed_order(two_levels, two_levels_[source], source, coarser);
     two_levels_[source] = std::move(two_levels);
     if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);
+    if (has_exact_steps(current_))  // peaks can still be between samples
+      bands_[ErrorSource::step] =
+          error_bands(found_.result, found_.result, ErrorSource::step, {current_, false, 2, ""});
     found_.tried.push_back(current_);
     const double error_now = error();
     found_.errors.search.push_back({setting_of(current_), error_now, cpu_s_});
@@ -256,7 +224,8 @@ class Search {
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
     if (stalled_ < 3) return true;
     found_.errors.reason =
-        "refinement no longer reduces the estimated error, due to round-off or a singularity";
+        "refinement no longer reduces the estimated error, due to round-off, a singularity or the "
+        "interval between samples";
     return false;
   }
 
@@ -271,7 +240,6 @@ class Search {
   const References& references_;
   Document current_;
   Json outputs_;  // patch that keeps the recorded times
-  std::optional<Sampling> sampling_;
   Stopwatch watch_;
   AccuracySearch found_;
   std::optional<Level> best_;  // level with the smallest estimated error

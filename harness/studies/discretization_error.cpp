@@ -89,7 +89,7 @@ std::optional<double> mesh_order(const Document& document, const std::string& qu
 
 /// Returns the order of convergence in the time step. With a step control, returns the exponent of
 /// the tolerance to which the error is proportional.
-double step_order(const Document& document) {
+double step_order(const Document& document, const std::string& quantity) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   if (inner_analysis_kind(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
@@ -97,6 +97,9 @@ double step_order(const Document& document) {
   // larger error is assumed.
   if (has_step_tolerance(document))
     return analysis.contains("error_control") ? std::log10(4.0) : 2.0 / 3;
+  // Vibrations with periods below the step delay the convergence of reactions.
+  if (inner_analysis_kind(document) == "large-motion" && quantity.starts_with("reaction_"))
+    return 1;
   if (analysis.value("extrapolated", false)) return 3;
   for (const char* key : {"method", "scheme"}) {
     const JsonPointer gamma(std::string("/") + key + "/newmark/gamma");
@@ -116,41 +119,30 @@ std::optional<double> theoretical_order(const Document& document, ErrorSource so
                                         const std::string& quantity) {
   if (source == ErrorSource::mesh) return mesh_order(document, quantity);
   // The largest value among samples converges at most with order 2 in the distance between samples.
-  const double order = step_order(document);
+  const double order = step_order(document, quantity);
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
 
-/// Returns, for each entry of a series, the index of the entry of the other series at the same time
-/// or frequency. The index is empty if the other series has no such entry.
-std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Quantities& other,
-                                                std::size_t size, std::size_t other_size) {
-  std::vector<std::optional<std::size_t>> places(size);
-  const std::string axis = own.contains("time_s") ? "time_s" : "frequency_Hz";
-  const auto time = own.find(axis), other_time = other.find(axis);
-  const bool by_time = size != other_size && time != own.end() && other_time != other.end() &&
-                       time->second.values.size() == size &&
-                       other_time->second.values.size() == other_size;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!by_time && size == other_size) places[i] = i;
-    if (!by_time) continue;
-    const double at = time->second.values[i], near = 1e-9 * time->second.values.back();
-    while (j < other_size && other_time->second.values[j] < at - near) ++j;
-    if (j < other_size && std::abs(other_time->second.values[j] - at) <= near) places[i] = j;
-  }
-  return places;
-}
-
 /// Returns a bound of the difference between the largest value of a curve and the largest of its
-/// samples, for a parabola through three samples. Returns 0 for quantities that are not peaks.
+/// samples, for a parabola through three samples. With few samples, this bound is not reliable and
+/// the largest value is returned. Returns 0 for quantities that are not peaks.
 double sampling_error(const AnalysisResult& result, const std::string& name) {
+  constexpr std::size_t kFew = 16;
   const auto curve = result.quantities.find(base_name(name));
   if (!name.starts_with("peak_") || curve == result.quantities.end()) return 0;
   const std::vector<double>& values = curve->second.values;
+  if (values.size() < kFew) return max_abs(values);
   double largest = 0;
   for (std::size_t i = 2; i < values.size(); ++i)
     largest = std::max(largest, std::abs(values[i] - 2 * values[i - 1] + values[i - 2]));
   return largest / 8;
+}
+
+/// Returns true if a study sets the key at a pointer, and would undo a patch of this key.
+bool is_varied_by_study(const Document& document, const std::string& pointer) {
+  const Json study = document.value().value(JsonPointer("/analysis/study"), Json::object());
+  return contains(study.value("pointers", Json::array()), Json(pointer)) ||
+         study.value("patches", Json::array({Json()})).front().contains(JsonPointer(pointer));
 }
 
 bool has_shapes(const AnalysisResult& result) {
@@ -209,8 +201,9 @@ class ErrorScales {
     return std::max(largest, found->second);
   }
   /// Returns the assumed relative round-off error of a quantity. This error is larger for analyses
-  /// with iterations or time steps.
+  /// with iterations or time steps, and for sensitivities, which can be difference quotients.
   [[nodiscard]] double roundoff() const {
+    if (kind_ == "sensitivity") return std::sqrt(std::numeric_limits<double>::epsilon());
     return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-11 : 1e-9;
   }
 
@@ -232,10 +225,9 @@ bool is_estimated(const std::string& name) {
       "digits",  "frequency_gap", "effect_",           "error",
       "step",    "drift",         "newton_correction", "iteration",
       "elements"};
-  const auto is_other = [&](const std::string& part) {
-    return head.find(part) != std::string::npos;
-  };
-  return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
+  return !is_error_measure(name) && !is_count(head) &&
+         std::ranges::none_of(others,
+                              [&](const auto& part) { return head.find(part) != head.npos; });
 }
 
 std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
@@ -255,6 +247,28 @@ std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
   return places;
 }
 
+std::vector<std::optional<std::size_t>> matched_samples(const Quantities& own,
+                                                        const Quantities& other, std::size_t size,
+                                                        std::size_t other_size) {
+  std::vector<std::optional<std::size_t>> places(size);
+  const auto times = [](const Quantities& quantities, std::size_t samples) {
+    const auto time = quantities.find("time_s");
+    const bool is_axis = time != quantities.end() && time->second.values.size() == samples;
+    return is_axis ? time->second.values : std::vector<double>();
+  };
+  const std::vector<double> time = times(own, size), others = times(other, other_size);
+  for (std::size_t i = 0, j = 0; i < size; ++i) {
+    if (time.empty() || others.empty()) {
+      if (size == other_size) places[i] = i;
+      continue;
+    }
+    const double near = 1e-9 * time.back();
+    while (j < other_size && others[j] < time[i] - near) ++j;
+    if (j < other_size && others[j] <= time[i] + near) places[i] = j;
+  }
+  return places;
+}
+
 bool is_same_result(const AnalysisResult& result, const AnalysisResult& other) {
   return std::ranges::all_of(result.quantities, [&](const auto& item) {
     const auto found = other.quantities.find(item.first);
@@ -267,9 +281,8 @@ std::optional<Companion> adjacent_refinement_level(const Document& document, Err
                                                    Refine refine, const AnalysisResult* result) {
   if (is_closed_form(inner_analysis_kind(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
-  const JsonPointer varied("/analysis/study/pointers");  // by a study, which would undo the patch
-  const Json pointers = document.value().value(varied, Json::array());
-  if (is_mesh && contains(pointers, Json(mesh_pointer(document)))) return std::nullopt;
+  if (is_varied_by_study(document, is_mesh ? mesh_pointer(document) : time_step_pointer(document)))
+    return std::nullopt;
   const bool has_step = result != nullptr && result->quantities.contains("largest_step_s");
   const double step = has_step ? result->quantities.at("largest_step_s").values.front() : 0;
   const auto patch_of = [&](const Document& given, Refine how) {
@@ -315,12 +328,14 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
     if (!is_estimated(name) || found == other.quantities.end()) continue;
     const std::vector<double>& values = quantity.values;
     const std::vector<double>& others = found->second.values;
-    const auto places = name == "frequency_Hz" ? matched_modes(result, other)
-                                               : aligned(result.quantities, other.quantities,
-                                                         values.size(), others.size());
+    const auto places =
+        name == "frequency_Hz"
+            ? matched_modes(result, other)
+            : matched_samples(result.quantities, other.quantities, values.size(), others.size());
     const double scale = scales.of(name);
     const std::optional<double> order = theoretical_order(document, source, name);
-    ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
+    ErrorBand band{std::vector<double>(values.size(), kNaN), {}, {}, order, true};
+    band.difference = band.factor = band.half_width;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!places[i] || *places[i] >= others.size()) continue;
       const double difference = std::abs(values[i] - others[*places[i]]);
@@ -336,15 +351,48 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
       const bool is_blind = is_coarse && difference <= 100 * roundoff;
       const double p = is_coarse ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
-      band.half_width[i] = roundoff + (is_nodal ? difference
-                                                : kSafetyFactor * difference *
-                                                      (companion.finer ? power : 1) / (power - 1));
+      band.difference[i] = difference;
+      band.factor[i] = is_nodal ? 1 : kSafetyFactor * (companion.finer ? power : 1) / (power - 1);
+      band.half_width[i] = roundoff + band.factor[i] * difference;
       if (is_blind) band.half_width[i] = kLargeDifference * std::max(std::abs(values[i]), scale);
       if (source == ErrorSource::step) band.half_width[i] += sampling_error(result, name);
       if (!is_nodal) band.order = p;
       band.asymptotic = band.asymptotic && !is_coarse;
     }
     bands.emplace(name, std::move(band));
+  }
+  // Stresses are derivatives of displacements, and no more accurate than those on a coarse mesh.
+  double coarse_error = 0;
+  for (const auto& [name, band] : bands)
+    if (name.starts_with("displacement_") && !band.asymptotic)
+      coarse_error = std::max(coarse_error, max_abs(band.half_width) / scales.of(name));
+  for (auto& [name, band] : bands)
+    if (coarse_error > 0 && name.find("stress_") != std::string::npos)
+      for (double& half_width : band.half_width)
+        half_width = std::max(half_width, coarse_error * scales.of(name));
+  return bands;
+}
+
+ErrorBands with_observed_order(ErrorBands bands, const ErrorBands& coarser, ErrorSource source,
+                               const Companion& companion) {
+  constexpr double kFactor = 1.25, kNear = 0.5, kLowest = 0.5;
+  for (auto& [name, band] : bands) {
+    const auto before = coarser.find(name);
+    const auto order = theoretical_order(companion.document, source, name);
+    if (before == coarser.end() || !order) continue;
+    const std::vector<double>& wider = before->second.difference;
+    bool agrees = wider.size() == band.difference.size();
+    for (std::size_t i = 0; i < std::min(wider.size(), band.difference.size()); ++i) {
+      const double observed = std::log(wider[i] / band.difference[i]) / std::log(companion.ratio);
+      const bool is_near = std::abs(observed - *order) < kNear;
+      agrees = agrees && is_near;
+      if (!std::isfinite(observed)) continue;
+      const double p = is_near ? *order : std::clamp(observed, kLowest, 2 * *order);
+      const double factor =
+          (is_near ? kFactor : kSafetyFactor) / (std::pow(companion.ratio, p) - 1);
+      band.half_width[i] += (factor - band.factor[i]) * band.difference[i];
+    }
+    band.asymptotic = band.asymptotic || agrees;
   }
   return bands;
 }
@@ -420,6 +468,8 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
       } catch (const InputError&) {  // fewer modes than the case requests
       }
     }
+    if (source == ErrorSource::step && has_exact_steps(document))
+      bands[source] = error_bands(result, result, source, {document, false, 2, ""});  // of peaks
     if (!used.empty()) found.companions += (found.companions.empty() ? "" : "; ") + used;
     if (used.empty() && !failed.empty())
       found.reason = "the computation with " + failed + " has no solution or is too expensive";

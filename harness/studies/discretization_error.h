@@ -39,6 +39,13 @@ struct Companion {
 [[nodiscard]] std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                                     const AnalysisResult& other);
 
+/// Returns, for each entry of a quantity, the index of the entry of the other result at the same
+/// time. Without times, entries have equal indices if both quantities have the same size.
+[[nodiscard]] std::vector<std::optional<std::size_t>> matched_samples(const Quantities& own,
+                                                                      const Quantities& other,
+                                                                      std::size_t size,
+                                                                      std::size_t other_size);
+
 /// Returns true if the results on two refinement levels are the same to the last bit. Both levels
 /// then had the same time steps, and their difference is no estimate of the error.
 [[nodiscard]] bool is_same_result(const AnalysisResult& result, const AnalysisResult& other);
@@ -46,6 +53,8 @@ struct Companion {
 /// Bands of the discretization error about the values of a quantity, with 95 % confidence.
 struct ErrorBand {
   std::vector<double> half_width;  ///< [unit]
+  std::vector<double> difference;  ///< |fine - coarse| [unit]
+  std::vector<double> factor;      ///< part of the difference that is in the half width
   std::optional<double> order;
   bool asymptotic = true;
 };
@@ -59,6 +68,16 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// the difference plus round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
+
+/// Returns error bands from three refinement levels. If the observed order of convergence agrees
+/// with the theoretical order, the safety factor is 1.25 instead of 3. A lower observed order
+/// replaces the theoretical order, and a higher one up to twice the theoretical order. Sources:
+/// Roache 1998, Verification and Validation in Computational Science and Engineering, 5.9;
+/// Oberkampf & Roy 2010, Verification and Validation in Scientific Computing, 8.6.
+/// @param bands    bands from the two finer levels
+/// @param coarser  bands from the two coarser levels
+[[nodiscard]] ErrorBands with_observed_order(ErrorBands bands, const ErrorBands& coarser,
+                                             ErrorSource source, const Companion& companion);
 
 /// Returns the relative errors of a solved computation: sums of the half widths of the error bands
 /// due to mesh and time step, divided by the scales of the values.

@@ -13,9 +13,9 @@ struct Figure {
   std::string id;       ///< slug for the names of files and the anchor, unique within the report
   std::string title;    ///< subject of the figure
   std::string caption;  ///< plotted data, then the conclusion
-  std::string alt;      ///< description of the picture for screen readers
+  std::string alt = {};  ///< description of the picture for screen readers
   int width = 500, height = 360;  ///< size before scaling to the column [px]
-  std::string commands;           ///< gnuplot commands of a PlotScript
+  std::string commands = {};      ///< gnuplot commands of a PlotScript
   Table data;
   std::string moving = {};  ///< JSON of an animation; empty if the figure is not animated
   bool is_linked = false;   ///< the page loads the drawing when it comes into view

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/statistic.h"
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
@@ -23,13 +24,6 @@ struct Series {
   const std::vector<double>* values;
   double largest = 0;
 };
-
-double largest_of(const std::vector<double>& values) {
-  double largest = 0;
-  for (const Number value : values)
-    if (value) largest = std::max(largest, std::abs(*value));
-  return largest;
-}
 
 /// Returns the number to draw for a value. A logarithmic axis shows magnitudes and omits zeros.
 Number drawn_number(const Number& value, bool log) {
@@ -101,7 +95,8 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
         const bool many = request.y.size() > 1;
         std::string label = many ? distinguishing_words(y, request) : info.variant_title(variant);
         if (many && variants.size() > 1) label += ", " + info.variant_title(variant);
-        series.push_back({y, variant, label, many ? iy : iv, iv, values, largest_of(*values)});
+        series.push_back(
+            {y, variant, label, many ? iy : iv, iv, values, harness::max_abs(*values)});
         continue;
       }
       return {};
@@ -118,12 +113,10 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
 /// Returns the common last words of two texts: "distance" for "serial distance", "parallel
 /// distance".
 std::string common_end(const std::string& a, const std::string& b) {
-  std::size_t n = 0;
-  while (n < a.size() && n < b.size() && a[a.size() - 1 - n] == b[b.size() - 1 - n]) ++n;
-  if (n == a.size() && n == b.size()) return a;
-  const std::string end = a.substr(a.size() - n);
-  const std::size_t space = end.find(' ');
-  return space == std::string::npos ? "" : end.substr(space + 1);
+  const auto differ = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first;
+  const std::string end(differ.base(), a.end());
+  if (a == b) return a;
+  return end.find(' ') == std::string::npos ? "" : end.substr(end.find(' ') + 1);
 }
 
 /// Returns a label for several quantities: the words at the end of all names, or else "value".
@@ -169,12 +162,11 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
     n = std::max(n, s.values->size());
   }
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<harness::Json> row = {x && i < x->size()
-                                          ? harness::number_or_null((*x)[i])
-                                          : harness::number_or_null(static_cast<double>(i + 1))};
+    const auto number = static_cast<double>(i + 1);
+    std::vector<harness::Json> row = {
+        harness::number_or_null(x && i < x->size() ? (*x)[i] : number)};
     for (const Series& s : series)
-      row.push_back(i < s.values->size() ? harness::number_or_null((*s.values)[i])
-                                         : harness::Json());
+      row.push_back(harness::number_or_null(i < s.values->size() ? (*s.values)[i] : Number()));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -239,7 +231,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   const Scale y_scale = request.is_log("y") ? Scale{1, y.unit} : readable_scale(y.unit, largest);
   const Scale x_scale = x.unit == "s" || !x_values || request.is_log("x")
                             ? Scale{1, x.unit}
-                            : readable_scale(x.unit, largest_of(*x_values));
+                            : readable_scale(x.unit, harness::max_abs(*x_values));
 
   PlotScript script;
   script.axis_label("x", request.x.empty() ? "number" : axis_label(to_text(x), x_scale.unit));

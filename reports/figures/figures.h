@@ -42,6 +42,9 @@ namespace trammel::reports {
 /// this change.
 [[nodiscard]] std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes);
 
+/// Figure of stated against true discretization errors, from the slow test of error estimates.
+[[nodiscard]] Figure error_coverage_figure();
+
 /// Figure of processor time and counted work of the calls in a history file, relative to the first
 /// call. Calls with failures are marked.
 [[nodiscard]] Figure call_history_figure(const History& history);

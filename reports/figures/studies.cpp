@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <sstream>
 
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
@@ -16,12 +18,9 @@ constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller changes are drawn at
 constexpr double kSceneMargin = 1.3;           ///< ratio of axis limits to outermost points
 
 Table table_of(const std::vector<EffectScene>& scenes) {
-  Table table;
-  table.heads = words_in("scene analysis tolerance change minimal whole_s chosen_s deciding_s");
+  Table table{words_in("scene analysis tolerance change"), {}};
   for (const EffectScene& s : scenes)
-    table.rows.push_back({s.scene, s.analysis, s.tolerance, s.change,
-                          std::string(s.minimal ? "yes" : "no"), s.whole_s, s.chosen_s,
-                          s.deciding_s});
+    table.rows.push_back({s.scene, s.analysis, s.tolerance, s.change});
   return table;
 }
 
@@ -54,6 +53,39 @@ std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& tim
   if (time.size() > 1)
     text += (work.empty() ? " The newest call has " : " and ") + last(time) + " times the time";
   return text + (work.empty() && time.size() < 2 ? "" : ".");
+}
+
+/// Draws curves of points on logarithmic axes, with the line of equal coordinates.
+/// @param line  title of this line
+Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& curves,
+               const std::string& x_label, const std::string& y_label, const std::string& line) {
+  Interval x{1, 0}, y{1, 0};
+  PlotScript script;
+  std::vector<std::string> keys = {line};
+  for (const auto& [title, rows] : curves) {
+    for (const std::vector<double>& point : rows) {
+      x.cover_around(point[0], kSceneMargin);
+      y.cover_around(point[1], kSceneMargin);
+    }
+    script.curve(rows,
+                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(keys.size() - 1) +
+                     lc(palette::color(keys.size() - 1)),
+                 title);
+    keys.push_back(title);
+  }
+  y.high = std::max(x.high, y.high);
+  script.log_axis("x", x.low, x.high);
+  script.log_axis("y", y.low, y.high);
+  script.axis_label("x", x_label);
+  script.axis_label("y", y_label);
+  script.curve({{x.low, x.low}, {x.high, x.high}},
+               "using 1:2 with lines lw 1.5 dt 2" + lc(palette::kMuted), line);
+  figure.height = 350 + script.place_key_below(keys);
+  script.plot();
+  figure.alt = figure.caption;
+  figure.commands = script.commands();
+  figure.is_linked = true;
+  return figure;
 }
 
 }  // namespace
@@ -112,44 +144,33 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
 
 std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
   if (scenes.empty()) return {};
-  Interval x{1, 0}, y{1, 0};
-  std::map<std::string, PlotScript::Rows> points;
-  for (const EffectScene& scene : scenes) {
-    const double change = std::max(scene.change, kSmallestDrawnChange);
-    points[scene.analysis].push_back({scene.tolerance, change});
-    x.cover_around(scene.tolerance, kSceneMargin);
-    y.cover_around(change, kSceneMargin);
-    y.high = std::max(y.high, scene.tolerance * kSceneMargin);
-  }
-  PlotScript script;
-  script.log_axis("x", x.low, x.high);
-  script.log_axis("y", y.low, y.high);
-  script.axis_label("x", "tolerance: requested limit of the change");
-  script.axis_label("y", "obtained change");
-  std::vector<std::string> keys = {"tolerance"};
-  script.curve({{x.low, x.low}, {x.high, x.high}},
-               "using 1:2 with lines lw 1.5 dt 2" + lc(palette::kMuted), keys.front());
-  for (const auto& [analysis, rows] : points) {
-    const std::size_t number = keys.size() - 1;
-    script.curve(rows,
-                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(number) +
-                     lc(palette::color(number)),
-                 analysis);
-    keys.push_back(analysis);
-  }
-  const int key_height = script.place_key_below(keys);
-  script.plot();
-  const std::string plotted =
-      "Change of the results caused by omitting effects, against the requested tolerance, one "
-      "point per scene. ";
-  return {{.id = "effects-obtained",
-           .title = "Automatic selection of effects: obtained change against tolerance",
-           .caption = plotted + conclusion(scenes),
-           .alt = plotted + conclusion(scenes),
-           .height = 350 + key_height,
-           .commands = script.commands(),
-           .data = table_of(scenes),
-           .is_linked = true}};
+  std::map<std::string, PlotScript::Rows> curves;
+  for (const EffectScene& scene : scenes)
+    curves[scene.analysis].push_back(
+        {scene.tolerance, std::max(scene.change, kSmallestDrawnChange)});
+  return {scatter({.id = "effects-obtained",
+                   .title = "Automatic selection of effects: obtained change against tolerance",
+                   .caption = "Change of the results caused by omitting effects, against the "
+                              "requested tolerance, one point per scene. " +
+                              conclusion(scenes),
+                   .data = table_of(scenes)},
+                  curves, "tolerance: requested limit of the change", "obtained change",
+                  "tolerance")};
+}
+
+Figure error_coverage_figure() {
+  PlotScript::Rows points;
+  Table table{words_in("true_error stated_error"), {}};
+  std::istringstream tenths(template_text("error_coverage.csv"));
+  for (double truth = 0, stated = 0; tenths >> truth >> stated;)
+    points.push_back({std::pow(10, truth / 10), std::pow(10, stated / 10)});
+  for (const std::vector<double>& point : points) table.rows.push_back({point[0], point[1]});
+  return scatter({.id = "error-coverage",
+                  .title = "Stated against true discretization errors",
+                  .caption = "Stated against true errors in the catalogue, rounded to tenths of "
+                             "decades. The statement covers the true errors above the line.",
+                  .data = std::move(table)},
+                 {{"errors", points}}, "true error", "stated error", "stated = true");
 }
 
 Figure call_history_figure(const History& history) {

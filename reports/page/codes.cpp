@@ -119,11 +119,11 @@ Data cell(const Run* run, const Check* shown) {
 
 std::size_t entries_of(const Row& row, const Check& shown) {
   std::ptrdiff_t most = 0;
+  const auto is_its = [&](const Check& c) {
+    return c.name == shown.name && c.quantity == shown.quantity;
+  };
   for (const Run* run : row.runs)
-    if (run != nullptr)
-      most = std::max(most, std::ranges::count_if(run->checks, [&](const Check& c) {
-                        return c.name == shown.name && c.quantity == shown.quantity;
-                      }));
+    if (run != nullptr) most = std::max(most, std::ranges::count_if(run->checks, is_its));
   return static_cast<std::size_t>(most);
 }
 

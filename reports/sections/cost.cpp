@@ -50,16 +50,16 @@ TextTable settings_table(const CostStudy& study) {
       "Cheapest settings: " + study.title,
       {"Within", "Cheapest setting", ">Error", ">Time", ">Processor time", "Counted work"}};
   for (const CheapestSetting& cheapest : study.cheapest) {
-    std::vector<std::string> row = {error_text(cheapest.error), "none of these settings"};
+    std::vector<std::string> row = {error_text(cheapest.error)};
     if (cheapest.setting) {
       const CostSetting& setting = study.settings[*cheapest.setting];
       const Number error = study.error_of(setting);
-      row = {row[0],
-             settings_text(study, cheapest),
-             error ? percent_text(*error, 2, false) : "–",
-             times(setting.relative),
-             duration(setting.cpu_s),
-             work_counters_text(setting.counters)};
+      for (const std::string& cell :
+           {settings_text(study, cheapest), error ? percent_text(*error, 2, false) : "–",
+            times(setting.relative), duration(setting.cpu_s), work_counters_text(setting.counters)})
+        row.push_back(cell);
+    } else {
+      row.emplace_back("none of these settings");
     }
     table.rows.push_back(std::move(row));
   }
@@ -99,13 +99,14 @@ Data study_data(const CostStudy& study, const Figure& figure) {
 
 std::vector<Figure*> StudyFigures::all() {
   std::vector<Figure*> figures;
-  for (std::vector<Figure>* some : {&cost, &stress, &effects, &history})
+  for (std::vector<Figure>* some : {&cost, &stress, &effects, &errors, &history})
     for (Figure& figure : *some) figures.push_back(&figure);
   return figures;
 }
 
 StudyFigures plan_studies(const Results& results) {
-  StudyFigures figures{{}, {}, effect_scene_figures(results.effect_scenes), {}};
+  StudyFigures figures{{}, {}, effect_scene_figures(results.effect_scenes), {}, {}};
+  if (results.claims) figures.errors.push_back(error_coverage_figure());
   std::map<std::string, std::string> titles;
   std::vector<const Run*> stress;
   for (const Run& run : results.runs)

@@ -260,7 +260,8 @@ Data comparison_matrices(const Family& family, const Results& results) {
   return matrices;
 }
 
-Data validation_uncertainty_section(const std::vector<Family>& families) {
+Data validation_uncertainty_section(const std::vector<Family>& families,
+                                    const StudyFigures& figures) {
   Tally all;
   Data with = list();
   for (const Family& family : families) {
@@ -274,6 +275,7 @@ Data validation_uncertainty_section(const std::vector<Family>& families) {
   }
   return object({{"has_rows", all.entries > 0},
                  {"words", count(all.entries, "comparison") + " with the paper: " + all.text()},
+                 {"figures", list_of(figures.errors, figure_data)},
                  {"families", with}});
 }
 

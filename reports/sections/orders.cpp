@@ -134,17 +134,12 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
   std::string text;
   if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
     const UncertaintyCoverage& found = *results.uncertainty_coverage;
-    const double rate = static_cast<double>(found.covered) / found.levels;
     text = "The numerical uncertainty (GCI) covers the exact value on " +
            std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
-           percent_text(rate, 3, false) + ")" +
+           percent_text(1.0 * found.covered / found.levels, 3, false) + ")" +
            (found.median_ratio
                 ? "; its median is " + trimmed(*found.median_ratio, 3) + " times the true error."
                 : ".");
-    if (found.min_coverage && found.max_median_ratio)
-      text += " Required are a coverage of at least " +
-              percent_text(*found.min_coverage, 3, false) + " and a median of at most " +
-              trimmed(*found.max_median_ratio, 3) + " times the error.";
   }
   return object({{"has_rows", entries > 0},
                  {"words", "Theoretical and observed orders of " +

@@ -8,13 +8,6 @@ namespace trammel::reports {
 
 namespace {
 
-std::string time_text(const Results& results) {
-  double wall_s = 0, cpu_s = 0;
-  for (const Run& run : results.runs) wall_s += run.cost.wall_s, cpu_s += run.cost.cpu_s;
-  return duration(wall_s) + " for " + count(results.runs.size(), "run") +
-         ", one after another; processor time " + duration(cpu_s);
-}
-
 constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufactured", "code",
                                                   "self-consistency"};
 
@@ -67,10 +60,15 @@ Data environment_section(const Results& results) {
     add(key, value);
   }
   for (const auto& [name, version] : from.libraries) add(name, version);
-  if (!results.runs.empty()) add("computing time", time_text(results));
+  double wall_s = 0, cpu_s = 0;
+  for (const Run& run : results.runs) wall_s += run.cost.wall_s, cpu_s += run.cost.cpu_s;
+  const std::string runs = count(results.runs.size(), "run");
+  if (!results.runs.empty())
+    add("computing time", duration(wall_s) + " for " + runs +
+                              ", one after another; processor time " + duration(cpu_s));
   if (from.stored_runs > 0)
-    add("not computed anew", std::to_string(from.stored_runs) + " of " +
-                                 count(results.runs.size(), "run") + " with unchanged input");
+    add("not computed anew",
+        std::to_string(from.stored_runs) + " of " + runs + " with unchanged input");
   if (results.solver) add("computed by", results.solver->name + " " + results.solver->version);
   data.set("rows", rows);
   return data;

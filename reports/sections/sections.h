@@ -42,7 +42,7 @@ inline constexpr const char* kLeadFigure = "cost-modes-elements";
 /// Figures of studies of many cases. `plan_studies` does not draw the figures.
 struct StudyFigures {
   std::vector<Figure> cost;  ///< one figure for each cost study of the results
-  std::vector<Figure> stress, effects, history;
+  std::vector<Figure> stress, effects, errors, history;
 
   [[nodiscard]] std::vector<Figure*> all();
 };
@@ -117,7 +117,8 @@ struct StudyFigures {
 [[nodiscard]] Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs);
 
 /// Differences from published values with their validation uncertainty (ASME V&V 20), by family.
-[[nodiscard]] Data validation_uncertainty_section(const std::vector<Family>& families);
+[[nodiscard]] Data validation_uncertainty_section(const std::vector<Family>& families,
+                                                  const StudyFigures& figures);
 
 /// Returns the tables that a case requests. Variants are rows; quantities and times are columns.
 [[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);

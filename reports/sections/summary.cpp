@@ -57,32 +57,24 @@ void set_roles(Data& data, const Results& results, const Counts& all) {
   set(data, {{"heads", heads}, {"roles", rows}});
 }
 
-Data failure_data(const CaseInfo& info, const Run& run, CheckStatus status,
-                  const std::string& subject, const std::string& text) {
-  return with_status(
-      status, {{"case_title", info.title},
-               {"case_link", case_link(info.id)},
-               {"variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : ""},
-               {"what", subject},
-               {"text", text}});
-}
-
 /// Returns the runs that did not end as expected, and the checks that fail or could not be judged.
 Data failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
   for (const Run& run : results.runs) {
     const CaseInfo& info = results.case_info(run.case_id);
-    const CheckStatus ending = check_status(run);
-    if (is_failure(ending)) {
-      ++unexpected_endings;
-      out.push_back(failure_data(info, run, ending, to_string(run.status), run.reason));
-    }
-    for (const CheckGroup& group : group_checks(run)) {
-      const CheckStatus worst = check_status(group.worst());
-      if (is_failure(worst))
-        out.push_back(
-            failure_data(info, run, worst, check_title(group.front()), failure_text(group)));
-    }
+    const std::string variant = info.variants.size() > 1 ? info.variant_title(run.variant) : "";
+    const auto add = [&](CheckStatus status, const std::string& what, const std::string& text) {
+      if (is_failure(status))
+        out.push_back(with_status(status, {{"case_title", info.title},
+                                           {"case_link", case_link(info.id)},
+                                           {"variant_title", variant},
+                                           {"what", what},
+                                           {"text", text}}));
+    };
+    if (is_failure(check_status(run))) ++unexpected_endings;
+    add(check_status(run), to_string(run.status), run.reason);
+    for (const CheckGroup& group : group_checks(run))
+      add(check_status(group.worst()), check_title(group.front()), failure_text(group));
   }
   return out;
 }
@@ -205,18 +197,16 @@ Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
 
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
   if (total(counts) == 0) return "No checks were made; there is nothing to compare with.";
-  const std::size_t fails = count_of(counts, CheckStatus::fails);
-  const std::size_t changed = count_of(counts, CheckStatus::changed_discrepancy);
-  const std::size_t errors = count_of(counts, CheckStatus::error);
   std::string text;
-  if (fails > 0) add_item(text, count(fails, "check fails", "checks fail"));
-  if (changed > 0)
-    add_item(text,
-             count(changed, "known discrepancy has changed", "known discrepancies have changed"));
-  if (errors > 0) add_item(text, std::to_string(errors) + " could not be evaluated");
-  if (unexpected_endings > 0)
-    add_item(text, count(unexpected_endings, "run did not end as expected",
-                         "runs did not end as expected"));
+  const auto add = [&](std::size_t n, const std::string& one, const std::string& many) {
+    if (n > 0) add_item(text, count(n, one, many));
+  };
+  add(count_of(counts, CheckStatus::fails), "check fails", "checks fail");
+  add(count_of(counts, CheckStatus::changed_discrepancy), "known discrepancy has changed",
+      "known discrepancies have changed");
+  add(count_of(counts, CheckStatus::error), "check could not be evaluated",
+      "checks could not be evaluated");
+  add(unexpected_endings, "run did not end as expected", "runs did not end as expected");
   if (!text.empty()) return text + ".";
   if (count_of(counts, CheckStatus::known_discrepancy) == 0) return "Every check passes.";
   return "Every check passes, or differs from the publication as recorded.";
