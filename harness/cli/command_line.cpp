@@ -147,7 +147,8 @@ const std::vector<Option>& all_options() {
        "Write K, M, C, T and f (Matrix Market) and the mesh (VTU) to this folder; the case is "
        "written only with --out"},
       {"--quick", &Options::quick, "Measure only a few settings of each study, as in the report"},
-      {"--repeats", &Options::repeats, "Number of measurements of each setting", within(0, 10000)},
+      {"--repeats", &Options::repeats,
+       "Number of measurements of each setting; for 'cost', at least 7", within(0, 10000)},
       {"--tolerance", &Options::tolerance,
        "Relative change that removed effects may cause, unless the case states a tolerance",
        within(1e-12, 1.0)},
@@ -278,7 +279,13 @@ class CommandLine {
  private:
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
     const std::string first = arguments.front();
-    return printable(error.what(), 200) + " (see trammel " +
+    std::vector<std::string> names;
+    for (const Option& option : all_options()) names.emplace_back(option.name());
+    std::string hint;
+    for (const std::string& argument : arguments)
+      if (argument.starts_with("--") && !contains(names, argument))
+        hint = did_you_mean(argument, names);
+    return printable(error.what(), 200) + hint + " (see trammel " +
            (is_command(first) ? first + " " : "") + "--help)";
   }
 

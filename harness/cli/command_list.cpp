@@ -245,6 +245,7 @@ int list_command(const CommandOptions& options, const Renderers& /*renderers*/) 
 
 int describe_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const auto [given, chosen] = load_case_variant(options.word);
+  for (const std::string& each : given.variants()) (void)patched(given, each);
   const std::string variant = chosen.empty() ? kBaseVariant : chosen;
   const Document document = patched(given, variant);
   if (options.json) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -118,6 +119,11 @@ bool are_refused(const std::vector<Run>& runs) {
   return true;
 }
 
+void require_no_variant(const std::string& option, const std::string& name) {
+  if (!option.empty())
+    throw InputError("--variant: expected a name of a case without a variant (got '" + name + "')");
+}
+
 /// Selects the cases with the given names or labels; all cases of the catalogue if the options
 /// contain neither names nor labels.
 Selection select(const CommandOptions& options) {
@@ -128,6 +134,7 @@ Selection select(const CommandOptions& options) {
   for (const std::string& word : options.words) {
     const auto [name, variant] = split_case_name(word);
     const std::filesystem::path file = catalogue.find_case(name);
+    if (!variant.empty()) require_no_variant(options.variant, word);
     if (variant.empty() || !chosen.contains(file)) files.push_back(file);
     if (!variant.empty()) chosen[file].push_back(variant);
   }
@@ -176,7 +183,7 @@ bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jo
 
 bool is_results_file(const std::string& name) {
   try {
-    return !read_if_results(name).is_null();
+    return !read_if_results(results_path(name)).is_null();
   } catch (const InputError&) {
     return false;  // the error is reported when the file is read as a case
   }
@@ -233,7 +240,8 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
 /// Renders existing results without computing: a single file as a report, several files as a page
 /// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
-  const std::vector<std::filesystem::path> files(options.words.begin(), options.words.end());
+  std::vector<std::filesystem::path> files;
+  std::ranges::transform(options.words, std::back_inserter(files), results_path);
   if (files.size() > 1)
     for (const auto& file : files)
       if (const auto fault = find_schema_fault(read_json(file), "results"))
@@ -334,7 +342,8 @@ std::pair<std::string, std::string> split_case_name(const std::string& name) {
 
 std::pair<Case, std::string> load_case_variant(const std::string& name, const std::string& option) {
   const auto [file, variant] = split_case_name(name);
-  return {load_named_case(file), option.empty() ? variant : option};
+  if (!variant.empty()) require_no_variant(option, name);
+  return {load_named_case(file), option + variant};
 }
 
 std::vector<Case> select_cases(const CommandOptions& options) {
@@ -373,7 +382,6 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
       if (run.fault == results::Fault::none && run.interrupted_by == 0 &&
           (!options.quiet || counts_as_failure(run) || !run.warnings.empty()))
         print_run(run, options.no_errors);
-    if (runs.size() == 1) print_validation(runs.front());
     print_summary(results);
     std::cout << "results in " << file.string() << std::endl;
   }

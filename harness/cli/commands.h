@@ -86,8 +86,8 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
 
 /// Returns the case that "CASE:VARIANT" or "CASE" names, and the variant or "".
-/// @param option  variant of the option --variant, which has priority; empty: none
-/// @throws InputError  if the case cannot be read
+/// @param option  variant of the option --variant; empty: none
+/// @throws InputError  if the case cannot be read, or if both name a variant
 [[nodiscard]] std::pair<Case, std::string> load_case_variant(const std::string& name,
                                                              const std::string& option = "");
 

@@ -122,34 +122,6 @@ void print_tried_settings(const results::ErrorEstimates& errors) {
   table.print(std::cout, "  ");
 }
 
-void print_validation(const results::Run& run) {
-  if (!run.uncertainty) return;
-  std::cout << "  validation (ASME V&V 20): standard uncertainties in the unit of the quantity; "
-            << "inputs by derivatives and by " << run.uncertainty->samples << " samples\n";
-  Rows table({"reference",
-              {"index", "entry"},
-              {"simulation", "S"},
-              {"expected", "D"},
-              {"difference", "E", 4},
-              {"u_num", "", 2},
-              {"u_input", "", 3},
-              {"u_input_sampled", "sampled", 3},
-              {"u_reference", "u_D", 2},
-              {"dominant_input", "dominant input"},
-              {"dominant_share", "share [%]", 3, 100}});
-  for (const results::Comparison& c : run.uncertainty->comparisons)
-    table.add({c.reference, c.index, number_or_null(c.simulation), number_or_null(c.expected),
-               number_or_null(c.difference), number_or_null(c.u_num), number_or_null(c.u_input),
-               number_or_null(c.u_input_sampled), number_or_null(c.u_reference), c.dominant_input,
-               number_or_null(c.dominant_share)});
-  table.print(std::cout, "    ");
-  for (const results::Comparison& comparison : run.uncertainty->comparisons)
-    std::cout << wrapped(
-        fmt::format("{}[{}]: {}; with nominal lengths taken literally: {}", comparison.reference,
-                    comparison.index, comparison.conclusion, comparison.all_inputs.conclusion),
-        "    ");
-}
-
 void print_numerical_uncertainty(const results::Results& results) {
   if (!results.uncertainty_coverage) return;
   const results::UncertaintyCoverage& found = *results.uncertainty_coverage;

@@ -20,8 +20,6 @@ void print_run(const results::Run& run, bool with_values = false);
 
 /// Prints the discretizations tried for the option --accuracy, with their estimated errors.
 void print_tried_settings(const results::ErrorEstimates& errors);
-/// Prints the validation comparisons (ASME V&V 20) of a run as a table, if there are any.
-void print_validation(const results::Run& run);
 
 /// Prints how often the numerical uncertainty (GCI) covers exact values, and how wide it is.
 void print_numerical_uncertainty(const results::Results& results);

@@ -234,7 +234,7 @@ Data tiles_of(const Results& results) {
   const std::size_t passing = count_of(solver, CheckStatus::passes);
   if (total(solver) > 0)
     tiles.push_back(tile(std::to_string(passing) + " of " + std::to_string(total(solver)),
-                         "Solver verification",
+                         results.claims ? "Solver verification" : "Verification",
                          "checks against exact values, other codes and theory pass.",
                          results.claims ? "orders.html" : "index.html#trust",
                          passing == total(solver) ? CheckStatus::passes : CheckStatus::fails));
