@@ -2,42 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "harness/base/number.h"
 
 namespace trammel::harness {
 
 double statistic_of(const std::string& name, const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const bool finite = std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
-  if (!finite) return std::numeric_limits<double>::quiet_NaN();
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  if (values.empty() || !std::ranges::all_of(values, is_finite)) return kNaN;
   const auto [least, most] = std::ranges::minmax_element(values);
   const auto count = static_cast<double>(values.size());
   if (name == "max") return *most;
   if (name == "min") return *least;
   if (name == "max_abs") return std::max(std::abs(*least), std::abs(*most));
-  if (name == "min_abs")
-    return std::abs(*std::ranges::min_element(
-        values, [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
-  if (name == "median") {
-    std::vector<double> sorted = values;
-    std::ranges::sort(sorted);
-    return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
-  }
-  if (name == "first") return values.front();
+  if (name == "median") return quantile(values, 0.5);
   if (name == "last") return values.back();
   if (name == "range") return *most - *least;
   if (name == "rms")
     return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count);
-  return std::numeric_limits<double>::quiet_NaN();
+  return kNaN;
 }
 
-double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
+double quantile(std::vector<double> values, double fraction) {
+  std::ranges::sort(values);
+  const double at = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], at - static_cast<double>(below));
 }
 
 double max_abs(const std::vector<double>& values) {

@@ -11,9 +11,9 @@ namespace trammel::harness {
 /// @param name  "max", "min", "max_abs", ... as in the schema
 [[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
 
-/// Returns the median; for an even count, the upper of the two middle values.
-/// @param values  at least one number
-[[nodiscard]] double upper_median(std::vector<double> values);
+/// Returns the quantile of the values by linear interpolation between the sorted values.
+/// @param fraction  fraction of the values below the quantile: 0.5 for the median
+[[nodiscard]] double quantile(std::vector<double> values, double fraction);
 
 /// Returns the largest absolute value; 0 for an empty list.
 [[nodiscard]] double max_abs(const std::vector<double>& values);

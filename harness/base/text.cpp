@@ -46,6 +46,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     std::size_t distance = edit_distance(word, candidate);
     const bool contained = word.size() >= 3 && candidate.find(word) != std::string::npos;
     if (contained) distance = std::min<std::size_t>(distance, 2);
+    if (candidate.starts_with(word + "_")) distance = 1;  // a key without its unit
     if (distance < least) {
       least = distance;
       best = candidate;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
 
 namespace trammel::harness {
@@ -43,14 +44,6 @@ RelativeTime time_ratio(const std::vector<double>& times, const std::vector<doub
   std::size_t outside = 0;  // number of ratios outside the interval on either side
   while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.02) ++outside;
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
-}
-
-double quantile(std::vector<double> values, double fraction) {
-  std::ranges::sort(values);
-  const double at = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return std::lerp(values[below], values[above], at - static_cast<double>(below));
 }
 
 std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state) {

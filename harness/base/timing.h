@@ -57,10 +57,6 @@ struct EvaluationTime {
 [[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
                                              const std::function<void()>& batch);
 
-/// Returns the quantile of the values by linear interpolation between the sorted values.
-/// @param fraction  fraction of the values below the quantile: 0.5 for the median
-[[nodiscard]] double quantile(std::vector<double> values, double fraction);
-
 /// Returns a random permutation of 0 ... n - 1 that is the same on every machine.
 /// @param state  state of the random generator, which is advanced
 [[nodiscard]] std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state);

@@ -89,9 +89,9 @@ const std::vector<Option>& all_options() {
   static const std::vector<Option> options = {
       {"case", &Options::word, "Name or file of a case, or case:variant"},
       {"cases", &Options::words,
-       "Names or files of cases; default: the catalogue, except for 'run'"},
+       "Names or files of cases; default: the catalogue, except for 'run' and 'effects'"},
       {"inputs", &Options::words,
-       "Names or files of cases, or results files; default: the catalogue"},
+       "Names or files of cases, or results files or their folders; default: the catalogue"},
       {"names", &Options::words, "Names of references; default: all"},
       {"sides", &Options::words,
        "case, case:variant, results.json, or a folder that contains results.json"},
@@ -281,11 +281,11 @@ class CommandLine {
     const std::string first = arguments.front();
     std::vector<std::string> names;
     for (const Option& option : all_options()) names.emplace_back(option.name());
-    std::string hint;
-    for (const std::string& argument : arguments)
-      if (argument.starts_with("--") && !contains(names, argument))
-        hint = did_you_mean(argument, names);
-    return printable(error.what(), 200) + hint + " (see trammel " +
+    const auto wrong = std::ranges::find_if(arguments, [&](const std::string& argument) {
+      return argument.starts_with("--") && !contains(names, argument);
+    });
+    return printable(error.what(), 200) +
+           (wrong == arguments.end() ? "" : did_you_mean(*wrong, names)) + " (see trammel " +
            (is_command(first) ? first + " " : "") + "--help)";
   }
 

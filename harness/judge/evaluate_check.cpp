@@ -118,8 +118,9 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   if (!check.against_variant.empty() || !check.against_quantity.empty())
     pair_with_run(check, context, pairs);
   if (check.has_comparison_target() && pairs.expected.size() != pairs.computed.size())
-    throw NotComparable{fmt::format("the numbers of values differ: {} computed, {} expected",
-                                    pairs.computed.size(), pairs.expected.size())};
+    throw NotComparable{fmt::format(
+        "the numbers of values differ: {} computed, {} expected; the key 'index' selects values",
+        pairs.computed.size(), pairs.expected.size())};
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size())
     throw NotComparable{fmt::format("{} values were computed, but the check has {} windows",
                                     pairs.computed.size(), check.windows.size())};

@@ -27,7 +27,7 @@ results::UncertaintyCoverage summarize_numerical_uncertainty(
   for (const results::Run& run : runs) std::ranges::for_each(run.convergence, add);
   if (summary.levels > 0)
     summary.coverage = static_cast<double>(summary.covered) / static_cast<double>(summary.levels);
-  if (!ratios.empty()) summary.median_ratio = upper_median(std::move(ratios));
+  if (!ratios.empty()) summary.median_ratio = quantile(std::move(ratios), 0.5);
   summary.passes = summary.levels < summary.min_levels ||
                    (*summary.coverage >= kMinHitRate && *summary.median_ratio <= kMaxMedianRatio);
   return summary;

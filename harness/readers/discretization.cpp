@@ -130,12 +130,12 @@ bool has_step_tolerance(const Document& document) {
 }
 
 bool has_exact_steps(const Document& document) {
-  const std::string kind = inner_analysis_kind(document);
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   const Json* inertia = find(analysis, "/effects/elastic_inertia");
   return analysis.value("modal_superposition", false) ||
          (analysis.contains("method") && analysis["method"] == "modal-superposition") ||
-         (kind == "elastodynamics" && inertia != nullptr && *inertia == false);
+         (inner_analysis_kind(document) == "elastodynamics" && inertia != nullptr &&
+          *inertia == false);
 }
 
 std::optional<Json> time_step_patch(const Document& document, Refine refine, double largest_step) {

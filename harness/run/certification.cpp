@@ -82,7 +82,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
     if (flipped)
       result.flips.push_back({other.name, row.name, verdict_of(row.before), verdict_of(row.after)});
   }
-  if (!digits.empty()) total.median_digits = upper_median(std::move(digits));
+  if (!digits.empty()) total.median_digits = quantile(std::move(digits), 0.5);
   result.rows.push_back(total);
 }
 

@@ -10,8 +10,8 @@
 
 #include "harness/base/quantity.h"
 #include "harness/base/rows.h"
+#include "harness/base/statistic.h"
 #include "harness/base/text.h"
-#include "harness/base/timing.h"
 #include "harness/run/diff.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/mode_match.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/statistic.h"
@@ -75,6 +76,7 @@ class Search {
     coarsen();
     solve_coarsest();
     choose_quantities();
+    if (has(ErrorSource::mesh) && has(ErrorSource::step)) probe();
     while (!(found_.reached = error() <= request_.accuracy)) {
       if (watch_.cpu_s() + (bands_.empty() ? 0 : kCostGrowth * cpu_s_) > request_.time_limit_s) {
         found_.errors.reason = "the time limit ended the search";
@@ -152,6 +154,22 @@ class Search {
         "/analysis", "the case has no solution for any mesh and step of the search: " + reason_);
   }
 
+  /// Solves with a finer mesh and with a finer step, for estimates of both errors of the first
+  /// level. The search continues with one of these results.
+  void probe() {
+    for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
+      auto finer = adjacent_refinement_level(current_, source, Refine::finer, &found_.result);
+      const AnalysisResult first = found_.result;
+      finer->document.apply_patch("recorded times", "", outputs_);
+      if (!solve(finer->document) || is_same_result(found_.result, first)) continue;
+      found_.tried.push_back(finer->document);
+      AnalysisResult& fine = probed_[source] = std::exchange(found_.result, first);
+      two_levels_[source] = error_bands(first, fine, source, {current_, true, finer->ratio, ""});
+    }
+    bands_ = two_levels_;
+    found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
+  }
+
   void choose_quantities() {
     static const std::vector<std::string> kUsual = {"frequency_Hz",     "load_factor",
                                                     "displacement_x_m", "displacement_y_m",
@@ -203,7 +221,10 @@ class Search {
     }
     const AnalysisResult coarse = found_.result;
     finer->document.apply_patch("recorded times", "", outputs_);
-    if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
+    if (probed_.contains(source)) {
+      found_.result = std::move(probed_.at(source));
+      two_levels_.erase(source);
+    } else if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
@@ -217,7 +238,8 @@ class Search {
     if (has_exact_steps(current_))  // peaks can still be between samples
       bands_[ErrorSource::step] =
           error_bands(found_.result, found_.result, ErrorSource::step, {current_, false, 2, ""});
-    found_.tried.push_back(current_);
+    if (!probed_.contains(source)) found_.tried.push_back(current_);
+    probed_.clear();
     const double error_now = error();
     found_.errors.search.push_back({setting_of(current_), error_now, cpu_s_});
     if (!best_ || error_now <= best_->error) best_ = {current_, found_.result, bands_, error_now};
@@ -245,6 +267,7 @@ class Search {
   std::optional<Level> best_;  // level with the smallest estimated error
   std::vector<std::string> asked_;
   std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // bands from three and from two levels
+  std::map<ErrorSource, AnalysisResult> probed_;          // results one level finer than the first
   solver::Counters counters_;
   std::string reason_;
   double cpu_s_ = 0;

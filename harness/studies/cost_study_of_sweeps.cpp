@@ -85,7 +85,8 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                const References& references) {
   const Document document = patched(given, variant);
   const JsonView root(document);
-  if (!root.has("sweeps")) throw root.error("expected 'sweeps', which define the refinement");
+  if (!root.has("sweeps"))
+    throw root.error("expected 'sweeps', which define the refinement, or the option --accuracy");
   const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
   CostStudy study = cost_study_without_settings(given, variant);
   const JsonView first = root["sweeps"][wanted.front()];

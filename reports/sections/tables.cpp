@@ -62,10 +62,10 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"reference_link", reference ? reference_link(reference->id) : ""}});
 }
 
-/// Returns "largest of 631: point 12", for a check of many values, of which the worst is shown.
+/// Returns "worst of 631: point 12", for a check of many values, of which the worst is shown.
 std::string worst_entry(const Check& worst, std::size_t entries) {
   const std::string entry = entry_text(worst, entries);
-  return "largest of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
+  return "worst of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
 }
 
 Data group_of_worst(const Check& worst, const std::string& entry, Rows& table) {

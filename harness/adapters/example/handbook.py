@@ -12,7 +12,7 @@ def solve(case):
     m, load = members[0], loads[0]
     held, tip = m.nodes
     (xa, ya), (xb, yb) = case.model["nodes"][held], case.model["nodes"][tip]
-    clamped = case.model["supports"] == {held: ["x", "y", "rotation"]}
+    clamped = case.model.get("supports") == {held: ["x", "y", "rotation"]}
     if not clamped or load["node"] != tip or ya != yb or m.beam != "euler-bernoulli":
         raise Cannot("models other than a slender cantilever along x")
     L, P, M0 = xb - xa, load.get("force_N", [0, 0])[1], load.get("moment_N_m", 0)
