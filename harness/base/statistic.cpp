@@ -19,6 +19,7 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
   if (name == "median") return quantile(values, 0.5);
+  if (name == "first") return values.front();
   if (name == "last") return values.back();
   if (name == "range") return *most - *least;
   if (name == "rms")

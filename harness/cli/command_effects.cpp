@@ -64,7 +64,6 @@ const std::vector<Column> kSceneColumns = {"scene",
                                            "chosen",
                                            {"change", "change [%]", 3, 100},
                                            {"tolerance", "tolerance [%]", 3, 100},
-                                           "minimal",
                                            {"whole_s", "all effects [s]", 3},
                                            {"chosen_s", "chosen [s]", 3},
                                            {"deciding_s", "deciding [s]", 3}};

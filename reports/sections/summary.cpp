@@ -254,8 +254,7 @@ Data tiles_of(const Results& results) {
   if (!targets.printed.empty())
     tiles.push_back(tile(std::to_string(targets.printed.size()), "Printed numbers that differ",
                          "from the computed ones; " + known_checks_text(results) +
-                             " compare these and " + count(targets.stated.size(), "statement") +
-                             ".",
+                             " compare " + targets.text() + ".",
                          "paper.html#known", CheckStatus::known_discrepancy));
   return tiles;
 }

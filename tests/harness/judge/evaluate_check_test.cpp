@@ -347,6 +347,7 @@ BOOST_AUTO_TEST_CASE(statistics_have_the_named_value) {
   BOOST_TEST(statistic_of("max_abs", values) == 4);
   BOOST_TEST(statistic_of("mean", values) == 0);
   BOOST_TEST(statistic_of("sum", values) == 0);
+  BOOST_TEST(statistic_of("first", values) == 3);
   BOOST_TEST(statistic_of("last", values) == 1);
   BOOST_TEST(statistic_of("range", values) == 7);
   BOOST_TEST(statistic_of("rms", values) == std::sqrt(26.0 / 3));
