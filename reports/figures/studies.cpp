@@ -167,7 +167,7 @@ Figure error_coverage_figure() {
   for (const std::vector<double>& point : points) table.rows.push_back({point[0], point[1]});
   return scatter({.id = "error-coverage",
                   .title = "Stated against true discretization errors",
-                  .caption = "Stated against true errors in the catalogue, rounded to tenths of "
+                  .caption = "Stated against true errors in the catalogue, rounded to fifths of "
                              "decades. The statement covers the true errors above the line.",
                   .data = std::move(table)},
                  {{"errors", points}}, "true error", "stated error", "stated = true");

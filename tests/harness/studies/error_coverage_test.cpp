@@ -201,8 +201,8 @@ std::string row_of(const std::string& tag, const std::vector<std::string>& cells
   return row + "</tr>\n";
 }
 
-/// Adds a row of `rows_of` to the tally. @param points  true and stated errors, in tenths of
-/// decades
+/// Adds a row of `rows_of` to the tally. @param points  true and stated errors in tenths of
+/// decades, rounded to fifths of decades
 void add_row(const Json& row, const std::string& level, Tally& tally, std::vector<Miss>& misses,
              std::set<std::array<int, 2>>& points) {
   constexpr double kRoundoff = 1e-11;
@@ -224,7 +224,7 @@ void add_row(const Json& row, const std::string& level, Tally& tally, std::vecto
   if (!is_known || difference <= kRoundoff) return;
   tally.ratios.push_back(stated / difference);
   const auto tenths = [](double error) {
-    return static_cast<int>(std::round(10 * std::log10(error)));
+    return 2 * static_cast<int>(std::round(5 * std::log10(error)));
   };
   points.insert({tenths(difference), tenths(stated)});
 }
