@@ -62,16 +62,15 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     const auto [begin, end] = named.equal_range(word);
     std::for_each(begin, end, [&](const auto& item) { add(item.second); });
     if (begin != end) continue;
-    const auto [name, chosen] = split_case_name(word);
-    const fs::path file = find_one(name, named);
+    const fs::path file = find_one(split_case_name(word).first, named);
     if (is_cost_study(file)) {
       add(file);
       continue;
     }
     any_case = true;
-    std::string variant = chosen.empty() ? options.variant : chosen;
-    if (variant.empty()) variant = kBaseVariant;
-    studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
+    const auto [given, variant] = load_case_variant(word, options.variant);
+    studies.push_back(cost_study_of_sweeps(given, variant.empty() ? kBaseVariant : variant,
+                                           options.sweeps, references));
   }
   if (!any_case && (!options.sweeps.empty() || !options.variant.empty()))
     throw InputError("--sweep and --variant apply to cases only; expected the name of a case");

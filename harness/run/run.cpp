@@ -79,7 +79,7 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
     task.input_warnings = unit_warnings(task.document);
     task.checks = read_checks(task.document, variant, owner.variants());
   });
-  if (task.run.status == Status::error)  // the checks of a faulty variant are errors
+  if (task.run.fault == Fault::input)  // the checks of a faulty variant are errors
     try {
       task.checks = read_checks(patched(owner, kBaseVariant), variant, owner.variants());
     } catch (const InputError&) {  // the case has the same fault

@@ -161,10 +161,11 @@ class Search {
       auto finer = adjacent_refinement_level(current_, source, Refine::finer, &found_.result);
       const AnalysisResult first = found_.result;
       finer->document.apply_patch("recorded times", "", outputs_);
-      if (!solve(finer->document) || is_same_result(found_.result, first)) continue;
+      if (!solve(finer->document)) continue;
       found_.tried.push_back(finer->document);
-      AnalysisResult& fine = probed_[source] = std::exchange(found_.result, first);
-      two_levels_[source] = error_bands(first, fine, source, {current_, true, finer->ratio, ""});
+      const AnalysisResult& fine = probed_[source] = std::exchange(found_.result, first);
+      if (source == ErrorSource::mesh || !is_same_result(first, fine))
+        two_levels_[source] = error_bands(first, fine, source, {current_, true, finer->ratio, ""});
     }
     bands_ = two_levels_;
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
