@@ -22,19 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ignores the signal SIGPIPE while an object of this class exists. If gnuplot closes its pipe,
-/// writing to the pipe then fails instead of ending the program.
-class NoBrokenPipe {
- public:
-  NoBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
-  ~NoBrokenPipe() { std::signal(SIGPIPE, previous_); }
-  NoBrokenPipe(const NoBrokenPipe&) = delete;
-  NoBrokenPipe& operator=(const NoBrokenPipe&) = delete;
-
- private:
-  void (*previous_)(int);
-};
-
 /// Returns the gnuplot settings of all figures. Texts have no markup (noenhanced).
 std::string preamble(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
@@ -114,17 +101,22 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   if (figures.empty()) return;
   const auto extent_path = [&](const Figure& figure) { return folder / (figure.id + ".extent"); };
   for (const Figure* figure : figures) fs::remove(svg_path(folder, *figure));
+  // If gnuplot closes its pipe, writing to the pipe fails instead of ending the program.
+  const auto previous = std::signal(SIGPIPE, SIG_IGN);
   {
-    const NoBrokenPipe guard;
     // With -d, gnuplot ignores the settings of the user; `timeout` ends it if it hangs.
-    Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
+    const std::string command =
+        "timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d";
+    std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // draw at the same time
+    std::size_t number = 0;
     for (const Figure* figure : figures)
-      gnuplot << preamble(*figure, svg_path(folder, *figure)) << figure->commands
-              << "unset output\n"
-              << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
-              << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
-                 "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";
+      both[number++ % 2]
+          << preamble(*figure, svg_path(folder, *figure)) << figure->commands << "unset output\n"
+          << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
+          << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
+             "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";
   }
+  std::signal(SIGPIPE, previous);
   for (Figure* figure : figures) {
     const fs::path path = svg_path(folder, *figure);
     const std::string drawn = fs::exists(path) ? read_file(path) : "";
@@ -170,7 +162,8 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
   fs::create_directories(folder);
   std::vector<Figure*> missing;
   for (Figure* figure : figures)
-    if (cache.empty() || !reuse_drawing(cache, program, *figure)) missing.push_back(figure);
+    if (figure->svg.empty() && (cache.empty() || !reuse_drawing(cache, program, *figure)))
+      missing.push_back(figure);
   draw_by_gnuplot(missing, folder);
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);

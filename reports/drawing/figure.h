@@ -8,16 +8,16 @@
 
 namespace trammel::reports {
 
-/// A figure: commands for gnuplot, its data as a table, and the drawing.
+/// A figure: commands for gnuplot or the drawing itself, and its data as a table.
 struct Figure {
-  std::string id;       ///< slug for the names of files and the anchor, unique within the report
-  std::string title;    ///< subject of the figure
-  std::string caption;  ///< plotted data, then the conclusion
+  std::string id;        ///< slug for the names of files and the anchor, unique within the report
+  std::string title;     ///< subject of the figure
+  std::string caption;   ///< plotted data, then the conclusion
   std::string alt = {};  ///< description of the picture for screen readers
   int width = 500, height = 360;  ///< size before scaling to the column [px]
   std::string commands = {};      ///< gnuplot commands of a PlotScript
   Table data;
-  std::string moving = {};  ///< JSON of an animation; empty if the figure is not animated
+  std::string moving = {};  ///< JSON of a motion for the script of the page; empty: no motion
   bool is_linked = false;   ///< the page loads the drawing when it comes into view
   std::string svg = {};     ///< the drawing as an element with unique ids
 };
@@ -29,8 +29,8 @@ struct Figure {
 /// Returns whether gnuplot is installed.
 [[nodiscard]] bool has_gnuplot();
 
-/// Draws all figures with one gnuplot process. Sets `svg`, and writes <id>.svg and <id>.csv for
-/// each figure into `folder`.
+/// Draws the figures without a drawing with one gnuplot process. Sets `svg`, and writes <id>.svg
+/// and <id>.csv for each figure into `folder`.
 /// @param cache   folder of earlier drawings, which are reused if unchanged; empty: no reuse
 /// @param program  version of this program; drawings of other versions are not reused
 /// @throws std::runtime_error  if a figure cannot be drawn or written.
@@ -43,6 +43,11 @@ void draw(const std::vector<Figure*>& figures, const std::filesystem::path& fold
 /// @throws std::runtime_error  if `text` is not a complete drawing by gnuplot.
 [[nodiscard]] std::string tidy_svg(const std::string& text, const std::string& id,
                                    const std::string& title, const std::string& description);
+
+/// Returns an <svg> element with the attributes of all drawings.
+/// @param attributes  further attributes, each with a space before it
+[[nodiscard]] std::string svg_element(const std::string& view_box, const std::string& label,
+                                      const std::string& body, const std::string& attributes = "");
 
 /// Escapes & < > " ' as entities. Control characters that XML cannot contain become spaces.
 [[nodiscard]] std::string xml_escaped(std::string text);

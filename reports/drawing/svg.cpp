@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/geometry.hpp>
@@ -166,11 +168,16 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   const std::string own = "p" + std::to_string(std::hash<std::string>{}(id) % 1000000000) + "-";
   replace_all(body, "xlink:href='#gp", "href='#" + own);
   replace_all(body, "id='gp", "id='" + own);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + cut(head, "viewBox=\"", "\"") +
-         "\" fill=\"none\" stroke-linejoin=\"round\" font-family=\"Helvetica, Arial, sans-serif\""
-         " font-size=\"15\" text-anchor=\"middle\""
-         " role=\"img\" aria-label=\"" +
-         xml_escaped(title + ". " + description) + "\">\n" + body + "</svg>\n";
+  return svg_element(cut(head, "viewBox=\"", "\""), title + ". " + description, body);
+}
+
+std::string svg_element(const std::string& view_box, const std::string& label,
+                        const std::string& body, const std::string& attributes) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{}\" fill=\"none\" "
+      "stroke-linejoin=\"round\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"15\" "
+      "text-anchor=\"middle\"{} role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
+      view_box, attributes, xml_escaped(label), body);
 }
 
 std::string xml_escaped(std::string text) {

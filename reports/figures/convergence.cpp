@@ -71,42 +71,23 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
 }
 
-/// Returns the range of the errors at each refinement level.
-std::map<double, Interval> error_ranges(const Sweeps& sweeps) {
-  std::map<double, Interval> ranges;
+/// Draws a line with the theoretical slope below the asymptotic range of the first curve that has
+/// one.
+void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
+  PlotScript::Rows line;
   for (const Convergence* c : sweeps) {
     const Numbers errors = errors_of(*c);
-    for (std::size_t k = 0; k < errors.size(); ++k)
-      if (errors[k]) ranges[*c->parameter[k]].cover(drawn_error(*errors[k]));
+    const bool falls = errors.front().value_or(0) > errors.back().value_or(0);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (!errors[k] || !c->in_asymptotic_range[k]) continue;
+      const double x = *c->parameter[k], start = drawn_error(*errors[k]) / 4;
+      const double way = line.empty() ? 1 : std::pow(x / line[0][0], falls ? -theory : theory);
+      line.push_back({x, way * (line.empty() ? start : line[0][1])});
+      extent.cover(line.back()[1]);
+    }
+    if (!line.empty()) break;
   }
-  return ranges;
-}
-
-/// Draws a triangle with the theoretical slope below the lowest curve, between two adjacent levels.
-void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
-  if (theory <= 0) return;
-  const std::map<double, Interval> ranges = error_ranges(sweeps);
-  // The slope triangle is drawn next to the steepest part of the lower edge of the curves, which
-  // has most room for it.
-  double steepest = 0;
-  auto start = ranges.end();
-  for (auto k = ranges.begin(); k != ranges.end() && std::next(k) != ranges.end(); ++k) {
-    const double fall = std::abs(std::log(k->second.low / std::next(k)->second.low));
-    if (fall > steepest) steepest = fall, start = k;
-  }
-  if (start == ranges.end()) return;
-  const auto& [x0, left] = *start;
-  const auto& [x1, right] = *std::next(start);
-  const bool falls = left.low > right.low;
-  const double top = std::max(left.low, right.low) / 8, bottom = top / std::pow(x1 / x0, theory);
-  const double x_top = falls ? x0 : x1, x_bottom = falls ? x1 : x0;
-  extent.cover(bottom);
-  script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
-               "with lines lw 1.4" + lc(palette::kInk));
-  script.label(trimmed(theory, 3), shortest_decimal(x_top) + "," +
-                                       shortest_decimal(std::sqrt(top * bottom)) +
-                                       (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
-                                       " front textcolor rgb '" + palette::kInk + "'");
+  script.curve(line, "with lines lw 1.4 dt 2" + lc(palette::kInk), "order " + trimmed(theory, 3));
 }
 
 /// Reports the fitted and the theoretical orders of convergence. If the theoretical error has terms
@@ -153,11 +134,9 @@ Table table_of(const Sweeps& sweeps) {
     const Numbers errors = errors_of(*c);
     for (std::size_t k = 0; k < c->parameter.size(); ++k)
       table.rows.push_back(
-          {*c->parameter[k], static_cast<double>(c->index + 1),
-           harness::number_or_null(c->values[k]), harness::number_or_null(errors[k]),
-           harness::number_or_null(c->roundoff[k]), harness::number_or_null(c->order[k]),
-           std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
-           harness::number_or_null(c->gci[k])});
+          {*c->parameter[k], static_cast<double>(c->index + 1), number_or_null(c->values[k]),
+           number_or_null(errors[k]), number_or_null(c->roundoff[k]), number_or_null(c->order[k]),
+           std::string(c->in_asymptotic_range[k] ? "yes" : "no"), number_or_null(c->gci[k])});
   }
   return table;
 }
@@ -187,7 +166,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.axis_label("y", exact ? "relative error of " + words
                                : "distance of " + words + " from extrapolated value");
   Interval extent{1, 1e-16};
-  std::vector<std::string> titles = {"round-off"};
+  std::vector<std::string> titles = {"round-off", "order of theory"};
   for (const Convergence* c : sweeps) titles.push_back(series_title(*c, sweeps.size() == 1));
   const int key_height = script.place_key_below(titles);
   const auto floor = roundoff_floor(sweeps);
@@ -195,7 +174,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::kShade), "round-off");
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     draw_series(script, *sweeps[i], i, sweeps.size() == 1, extent);
-  if (first.theory_order) draw_slope(script, sweeps, *first.theory_order, extent);
+  if (first.theory_order.value_or(0) > 0) draw_slope(script, sweeps, *first.theory_order, extent);
   script.log_axis("y", extent.low, extent.high);
   script.plot();
 

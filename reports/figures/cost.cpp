@@ -93,13 +93,13 @@ Table table_of(const CostStudy& study) {
   for (const auto& counter : study.settings.front().counters) table.heads.push_back(counter.first);
   for (const CostSetting& s : study.settings) {
     const ErrorNorms errors = s.errors.value_or(ErrorNorms{});
-    std::vector<harness::Json> row = {s.title, s.curve, harness::number_or_null(s.value), s.status,
+    std::vector<harness::Json> row = {s.title, s.curve, number_or_null(s.value), s.status,
                                       s.reason};
     const Number low = s.time ? s.time->relative_low : Number();
     const Number high = s.time ? s.time->relative_high : Number();
     for (const Number& x :
          {errors.max, errors.rms, errors.mean, Number(s.cpu_s), s.relative, low, high})
-      row.push_back(harness::number_or_null(x));
+      row.push_back(number_or_null(x));
     row.emplace_back(std::string(s.pareto_optimal ? "yes" : "no"));
     for (const auto& counter : s.counters) row.emplace_back(static_cast<double>(counter.second));
     table.rows.push_back(std::move(row));

@@ -163,10 +163,9 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
   }
   for (std::size_t i = 0; i < n; ++i) {
     const auto number = static_cast<double>(i + 1);
-    std::vector<harness::Json> row = {
-        harness::number_or_null(x && i < x->size() ? (*x)[i] : number)};
+    std::vector<harness::Json> row = {number_or_null(x && i < x->size() ? (*x)[i] : number)};
     for (const Series& s : series)
-      row.push_back(harness::number_or_null(i < s.values->size() ? (*s.values)[i] : Number()));
+      row.push_back(number_or_null(i < s.values->size() ? (*s.values)[i] : Number()));
     table.rows.push_back(std::move(row));
   }
   return table;

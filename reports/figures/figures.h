@@ -20,6 +20,9 @@ namespace trammel::reports {
 /// the errors of the quantity against the refined parameter, on a logarithmic error axis.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
+/// Figure of fitted against theoretical orders of convergence.
+[[nodiscard]] Figure order_figure(const std::vector<const Run*>& runs);
+
 /// Figure of processor time against error on logarithmic axes, with the Pareto front. The caption
 /// states the number of settings without a result.
 [[nodiscard]] Figure cost_figure(const CostStudy& study);

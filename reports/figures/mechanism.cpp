@@ -130,14 +130,6 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text + ".";
 }
 
-/// Returns the poses that are not instants of a motion. A separate figure shows a motion.
-std::vector<const Pose*> overlays_of(const Drawing& drawing) {
-  std::vector<const Pose*> overlays;
-  for (const Pose& pose : drawing.poses)
-    if (!pose.time_s) overlays.push_back(&pose);
-  return overlays;
-}
-
 /// Draws the poses of a mechanism other than the first pose, and the key of poses, joints and
 /// loads. @returns the height of the key [px]
 int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
@@ -165,7 +157,9 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   // A model of points only, such as a mass on springs, has no drawing.
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty())
     return std::nullopt;
-  const std::vector<const Pose*> overlays = overlays_of(drawing);
+  std::vector<const Pose*> overlays;
+  for (const Pose& pose : drawing.poses)
+    if (!pose.time_s) overlays.push_back(&pose);  // a motion has a separate figure
   std::vector<std::vector<Point>> sets = {drawing.nodes};
   for (const Pose* pose : overlays) sets.push_back(pose->nodes);
   const std::string base_label = overlays.empty() ? "" : "first pose";

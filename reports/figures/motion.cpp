@@ -15,18 +15,15 @@ namespace {
 
 constexpr std::size_t kMaxDrawnInstants = 6;
 
-/// Largest length of the vectors at all instants, and the time at which it occurs.
+/// Largest deflection of all nodes and instants, and the time at which it occurs.
 struct Largest {
   double length = 0, time = 0;
 };
 
-/// Returns the length of the longest vector at any node and instant, and its time.
-/// @param of  function that returns the vectors of all nodes at an instant
-template <class Vectors>
-Largest largest(const std::vector<Pose>& instants, const Vectors& of) {
+Largest largest_deflection(const std::vector<Pose>& instants) {
   Largest found;
   for (const Pose& instant : instants)
-    for (const auto& [x, y] : std::invoke(of, instant))
+    for (const auto& [x, y] : instant.displacement)
       if (std::hypot(x, y) > found.length) found = {std::hypot(x, y), *instant.time_s};
   return found;
 }
@@ -59,15 +56,7 @@ std::string caption_of(const std::vector<Pose>& instants, const Largest& deflect
            (factor > 1 ? "magnified " + trimmed(factor, 2) + " times." : std::string("to scale.")) +
            all + " The largest deflection is " + length_text(deflection.length) + ", at " +
            trimmed(deflection.time, 3) + "\u202fs.";
-  const std::vector<Point>& first = instants.front().nodes;
-  const Largest way = largest(instants, [&](const Pose& instant) {
-    std::vector<Point> moved = instant.nodes;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      moved[i].first -= first[i].first, moved[i].second -= first[i].second;
-    return moved;
-  });
-  return "Positions to scale." + all + " The largest distance of a point from its start is " +
-         length_text(way.length) + ", at " + trimmed(way.time, 3) + "\u202fs.";
+  return "Positions to scale." + all;
 }
 
 Table table_of(const std::vector<Pose>& instants) {
@@ -84,34 +73,28 @@ Table table_of(const std::vector<Pose>& instants) {
 using Json = nlohmann::json;
 using Coordinates = std::vector<long>;
 
-/// Lines of a drawing as JSON for an animation. Nodes are numbered in the order in which they are
-/// drawn; nodes that are not drawn have no number.
+/// Lines of a drawing as JSON for the script of the page. Nodes are numbered in the order in which
+/// they are drawn; nodes that are not drawn have no number. Coordinates are in tenths of a unit of
+/// the drawing, with y downwards.
 class Panel {
  public:
   Panel(const Drawing& drawing, const Box& box, double width)
       : box_(box), scale_(10 * width / box.width()) {
     json["panel"] = {std::lround(10 * width), std::lround(scale_ * box.height())};
     json["lines"] = renumbered(polylines(drawing));
-    const auto edges = triangle_edges(drawing);
-    const bool loops = !edges.empty() && edges.front().front() == edges.front().back();
-    json["edges"] = renumbered(edges);
-    json["fill"] = renumbered(loops ? edges : drawing.triangles);
+    json["edges"] = renumbered(triangle_edges(drawing));
+    json["fill"] = renumbered(filled_loops(drawing));
   }
 
-  /// Returns the components of a vector at each drawn node. @param of  vectors at all nodes
-  [[nodiscard]] Coordinates vectors(const std::vector<Point>& of, double factor = 1) const {
+  /// Returns the coordinates of each drawn node. @param nodes  positions of all nodes
+  [[nodiscard]] Coordinates places(const std::vector<Point>& nodes) const {
     Coordinates numbers(2 * places_.size());
     for (const auto& [node, place] : places_) {
-      const auto& [x, y] = of[static_cast<std::size_t>(node)];
-      numbers[2 * static_cast<std::size_t>(place)] = std::lround(scale_ * factor * x);
-      numbers[2 * static_cast<std::size_t>(place) + 1] = std::lround(-scale_ * factor * y);
+      const auto& [x, y] = nodes[static_cast<std::size_t>(node)];
+      numbers[2 * static_cast<std::size_t>(place)] = std::lround(scale_ * (x - box_.x.low));
+      numbers[2 * static_cast<std::size_t>(place) + 1] = std::lround(scale_ * (box_.y.high - y));
     }
     return numbers;
-  }
-
-  [[nodiscard]] Coordinates places(std::vector<Point> nodes) const {
-    for (auto& [x, y] : nodes) x -= box_.x.low, y -= box_.y.high;
-    return vectors(nodes);
   }
 
   Json json;
@@ -164,7 +147,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   const Drawing& drawing = *run.drawing;
   const std::vector<Pose> instants = instants_of(drawing);
   if (instants.size() < 2) return std::nullopt;
-  const Largest deflection = largest(instants, &Pose::displacement);
+  const Largest deflection = largest_deflection(instants);
   const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
   std::vector<std::vector<Point>> places, everything;
   for (const Pose& instant : instants) {
@@ -200,18 +183,6 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
 bool are_finite(const std::vector<Point>& points) {
   return std::ranges::all_of(
       points, [](const Point& p) { return std::isfinite(p.first) && std::isfinite(p.second); });
-}
-
-std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                           const Box& box, double panel_width) {
-  Panel moving(drawing, box, panel_width);
-  moving.json["nodes"] = moving.places(drawing.nodes);
-  for (std::size_t s = 0; s < factor.size(); ++s) {
-    const Shape& shape = drawing.shapes[s];
-    moving.json["shapes"].push_back(
-        {{"label", shape.label}, {"moved", moving.vectors(shape.displacement, factor[s])}});
-  }
-  return moving.json.dump();
 }
 
 }  // namespace trammel::reports

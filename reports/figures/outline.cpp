@@ -126,18 +126,20 @@ PlotScript::Rows polyline_points(const std::vector<std::vector<int>>& lines,
   return rows;
 }
 
+std::vector<std::vector<int>> filled_loops(const Drawing& drawing) {
+  if (drawing.triangles.size() > kCoarseMesh) return outline(drawing);
+  std::vector<std::vector<int>> loops = drawing.triangles;
+  for (auto& loop : loops) loop.push_back(loop.front());
+  return loops;
+}
+
 PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
-  std::vector<std::vector<int>> closed;
-  if (drawing.triangles.size() <= kCoarseMesh) {
-    for (const auto& t : drawing.triangles) {
-      closed.push_back(t);
-      closed.back().push_back(t.front());
-    }
-    return polyline_points(closed, nodes);
-  }
+  const std::vector<std::vector<int>> loops = filled_loops(drawing);
+  if (drawing.triangles.size() <= kCoarseMesh) return polyline_points(loops, nodes);
   // One polygon passes through all loops and returns to its start after each, so that holes stay
   // unfilled.
-  for (const auto& loop : outline(drawing)) {
+  std::vector<std::vector<int>> closed;
+  for (const auto& loop : loops) {
     if (closed.empty()) {
       closed.push_back(loop);
     } else {

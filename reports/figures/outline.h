@@ -8,7 +8,7 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/plot_script.h"
 
-/// Geometry of drawings: lines, areas, ranges of the axes, and the data of animations.
+/// Geometry of drawings: lines, areas, and ranges of the axes.
 namespace trammel::reports {
 
 /// Returns the members as polylines of node numbers. A member that starts at the end of the
@@ -27,7 +27,10 @@ namespace trammel::reports {
 [[nodiscard]] PlotScript::Rows polyline_points(const std::vector<std::vector<int>>& lines,
                                                const std::vector<Point>& nodes);
 
-/// Returns closed polygons to be filled: triangles of a coarse mesh, or the outline of a fine mesh.
+/// Returns closed loops of node numbers: triangles of a coarse mesh, or the outline of a fine mesh.
+[[nodiscard]] std::vector<std::vector<int>> filled_loops(const Drawing& drawing);
+
+/// Returns the rows with which gnuplot fills these loops.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 
@@ -62,17 +65,8 @@ void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Poi
 /// Returns the title `what`, followed by the title of the variant if it is not the base variant.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 
-// Animated drawings are JSON for the script of the page. Coordinates are in tenths of a unit of the
-// drawing, with y downwards. They contain only nodes that are drawn.
-
 inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflection to longer side
 
 [[nodiscard]] bool are_finite(const std::vector<Point>& points);
-
-/// Returns the animation of modes as JSON, with one panel for each mode.
-/// @param factor  magnification of each mode shape
-/// @param panel_width   width of a panel [px]
-[[nodiscard]] std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                                         const Box& box, double panel_width);
 
 }  // namespace trammel::reports

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +14,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxShapes = 8;
+constexpr double kRigid = 1e-4;  ///< frequency ratio below which a mode is a rigid-body mode
 
 double factor_for(const Shape& shape, double side) {
   double largest = 0;
@@ -19,17 +22,63 @@ double factor_for(const Shape& shape, double side) {
   return largest > 0 && std::isfinite(largest) ? kDrawnAmplitude * side / largest : 0;
 }
 
-void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Point>& moved,
-                const std::string& label, std::size_t panels) {
-  script.command("unset label");
-  script.label(
-      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::kInk) + "'");
-  draw_body(script, drawing, drawing.nodes, palette::kStructure, 1.2);
-  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(polyline_points(triangle_edges_inside(drawing, panels), moved),
-               "with lines lw 0.4" + lc(palette::color(0)));
-  draw_body(script, drawing, moved, palette::color(0), 2.2);
-  script.plot();
+/// Place of a shape in the figure [px], with y downwards. The width of the box fills the panel.
+struct Panel {
+  Box box;
+  double left, top, width;
+
+  /// Returns the data of an SVG path along lines of nodes.
+  [[nodiscard]] std::string path(const std::vector<std::vector<int>>& lines,
+                                 const std::vector<Point>& nodes) const {
+    const double scale = width / box.width();
+    std::string out;
+    for (const auto& line : lines)
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        if (i % (1 + line.size() / 200) != 0 && i + 1 != line.size()) continue;  // not visible
+        const auto& [x, y] = nodes[static_cast<std::size_t>(line[i])];
+        out += fmt::format("{}{:.4g},{:.4g}", i == 0 ? 'M' : ' ', left + scale * (x - box.x.low),
+                           top + scale * (box.y.high - y));
+      }
+    return out;
+  }
+};
+
+/// Draws the undeformed and the deformed body. The deformed body swings between the shape and its
+/// mirror image while the drawing has the pointer or the focus.
+/// @param half_period_s  time from the shape to its mirror image; 0: the body does not swing
+/// @param name           unique name of the drawing
+/// @param motion         receives the styles of the motion
+std::string panel_svg(const Drawing& drawing, const Shape& shape, double factor,
+                      double half_period_s, const std::string& name, std::size_t panels,
+                      const Panel& panel, std::string& motion) {
+  const std::vector<Point> there = displaced(drawing.nodes, shape, factor),
+                           back = displaced(drawing.nodes, shape, -factor);
+  std::string out = fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" fill=\"{}\">{}</text>\n",
+                                panel.left + 0.5 * panel.width, panel.top - 10, palette::kInk,
+                                xml_escaped(with_powers_of_ten(shape.label)));
+  const auto draw = [&](const std::vector<std::vector<int>>& lines, double width,
+                        const std::string& part, const std::string& style = "") {
+    if (lines.empty()) return;
+    const bool swings = half_period_s > 0 && !part.empty();
+    const std::string own = "swing-" + slug(name) + "-" + part;
+    if (swings)
+      motion += fmt::format("<style>@keyframes {}{{to{{d:path('{}')}}}}</style>\n", own,
+                            panel.path(lines, back));
+    out += fmt::format(R"(<path d="{}" stroke="{}" stroke-width="{}"{})",
+                       panel.path(lines, part.empty() ? drawing.nodes : there),
+                       part.empty() ? palette::kStructure : palette::color(0), width, style);
+    if (swings)
+      out += fmt::format(R"( class="swing" style="animation-name:{};animation-duration:{:.3g}s")",
+                         own, half_period_s);
+    out += "/>\n";
+  };
+  draw(triangle_edges(drawing), 0.6, "");
+  draw(polylines(drawing), 1.2, "");
+  draw(filled_loops(drawing), 1.1, "plate",
+       fmt::format(R"( fill-rule="evenodd" fill="{}")", palette::kPlate));
+  draw(triangle_edges_inside(drawing, panels), 0.4, "mesh");
+  draw(polylines(drawing), 2.2, "links");
+  return out;
 }
 
 /// Returns whether a shape is a vibration mode, labeled as "mode 3, 15.1 Hz".
@@ -37,43 +86,43 @@ bool is_mode(const Shape& shape) {
   return shape.label.starts_with("mode") && shape.label.find(" Hz") != std::string::npos;
 }
 
-/// Returns whether the shapes can be animated: vibration modes with finite displacements.
-bool can_move(const Drawing& drawing, std::size_t shapes) {
-  bool finite = are_finite(drawing.nodes);
-  for (std::size_t s = 0; s < shapes; ++s)
-    finite = finite && is_mode(drawing.shapes[s]) && are_finite(drawing.shapes[s].displacement);
-  return finite;
+/// Returns the frequencies of `n` vibration modes [Hz]. Empty if the shapes are no modes, or if any
+/// number is missing.
+std::vector<double> frequencies_of(const Drawing& drawing, std::size_t n, const Run& run) {
+  const auto* frequency = run.quantity("frequency_Hz");
+  std::vector<double> values;
+  for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
+    if (Number((*frequency)[s]) && is_mode(drawing.shapes[s]) &&
+        are_finite(drawing.shapes[s].displacement))
+      values.push_back((*frequency)[s]);
+  return values.size() == n && are_finite(drawing.nodes) ? values : std::vector<double>();
 }
 
 /// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz."
-std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
+std::string modes_text(const Drawing& drawing, const std::vector<double>& values) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
     return "The lowest mode buckles at " + label.substr(label.find(", ") + 2) + ".";
   }
-  const auto* frequency = run.quantity("frequency_Hz");
-  std::vector<double> values;
-  for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
-    values.push_back(Number((*frequency)[s]).value_or(0));
-  if (values.size() < n) return "";
+  const std::size_t n = values.size();
+  if (n == 0) return "";
   std::size_t free = 0;
-  while (free < n && values[free] <= 1e-4 * values.back()) ++free;
+  while (free < n && values[free] <= kRigid * values.back()) ++free;
   const auto hertz = [](double value) { return trimmed(value, 4) + "\u202fHz"; };
   std::string text;
   if (free > 0) text = count(free, "mode is a rigid-body mode", "modes are rigid-body modes") + ".";
   if (free == n) return text;
-  if (free + 1 == n)
-    return text + " Mode " + std::to_string(n) + " has " + hertz(values.back()) + ".";
-  return text + " Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
-         hertz(values[free]) + " to " + hertz(values.back()) + ".";
+  const bool one = free + 1 == n;
+  return text + (one ? " Mode " : " Modes ") +
+         low_to_high(std::to_string(free + 1), std::to_string(n)) + (one ? " has " : " have ") +
+         low_to_high(hertz(values[free]), hertz(values.back())) + ".";
 }
 
 /// Returns "The largest displacement is 1.2 mm, magnified 83 times."
 std::string displacements_text(const Drawing& drawing, const std::vector<double>& factors,
                                double side) {
-  std::size_t largest = 0;
-  for (std::size_t s = 1; s < factors.size(); ++s)  // the shape with the smallest magnification
-    if (factors[s] > 0 && !(factors[largest] > 0 && factors[largest] <= factors[s])) largest = s;
+  const auto size = [](double factor) { return factor > 0 ? 1 / factor : 0; };
+  const auto largest = std::ranges::max_element(factors, {}, size) - factors.begin();
   if (!(factors[largest] > 0)) return "Nothing is displaced.";
   const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";
   return "The largest displacement is " + length_text(kDrawnAmplitude * side / factors[largest]) +
@@ -109,34 +158,45 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   everything.push_back(drawing.nodes);
   const Box box = box_around(everything, 0.02, 0.22);
   const std::size_t columns = n == 1 ? 1 : n <= 4 ? 2 : 3, rows = (n + columns - 1) / columns;
-  const double panel = 500.0 / static_cast<double>(columns);
-  const double height = std::clamp(panel * box.height() / box.width(), 55.0, 270.0) + 32;
-
-  PlotScript script;
-  script.command("set lmargin 0; set rmargin 0; set tmargin 2; set bmargin 0");
-  set_axis_ranges(script, box);
-  script.command("unset border; unset tics; unset xlabel; unset ylabel; unset grid; unset key");
-  script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
+  constexpr double kWidth = 500, kHeadline = 32, kMaxHeight = 270;
+  const double cell = kWidth / static_cast<double>(columns), aspect = box.height() / box.width();
+  const double width = std::min(cell, kMaxHeight / aspect), high = width * aspect + kHeadline;
+  const std::vector<double> hertz = frequencies_of(drawing, n, run);
+  const double fastest = hertz.empty() ? 0 : std::ranges::max(hertz);
+  double slowest = fastest;
+  for (const double f : hertz) slowest = f > kRigid * fastest ? std::min(slowest, f) : slowest;
+  const double slowed = std::max(2 * slowest, 0.25 * fastest);  // to 0.5 Hz, but at most 4 Hz
+  std::string svg, motion;
   for (std::size_t s = 0; s < n; ++s)
-    draw_panel(script, drawing, moved[s], drawing.shapes[s].label, n);
-  script.command("unset multiplot");
+    svg += panel_svg(drawing, drawing.shapes[s], factors[s],
+                     slowed > 0 && hertz[s] > kRigid * fastest ? 0.5 * slowed / hertz[s] : 0,
+                     info.id + "-" + run.variant + "-" + std::to_string(s), n,
+                     {box, cell * static_cast<double>(s % columns) + 0.5 * (cell - width),
+                      high * static_cast<double>(s / columns) + kHeadline, width},
+                     motion);
 
   const bool modes = drawing.shapes.front().label.starts_with("mode");
   std::string labels;
   for (std::size_t s = 0; s < n; ++s) add_item(labels, drawing.shapes[s].label, "; ");
+  const std::string title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run);
+  const std::string alt = "Drawings of the shapes: " + labels;
+  const int height = static_cast<int>(high * static_cast<double>(rows)) + 8;
   return Figure{
       .id = slug(info.id + "-" + run.variant + "-shapes"),
-      .title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run),
+      .title = title,
       .caption =
           "Undeformed (gray) and deformed (blue) shapes, each scaled so that its largest "
           "displacement is " +
           trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side. " +
-          (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)),
-      .alt = "Drawings of the shapes: " + labels,
-      .height = static_cast<int>(height * static_cast<double>(rows)) + 8,
-      .commands = script.commands(),
+          (modes ? modes_text(drawing, hertz) : displacements_text(drawing, factors, side)) +
+          (slowed > 0
+               ? " Hover or focus shows the motion, slowed down " + trimmed(slowed, 2) + " times."
+               : ""),
+      .alt = alt,
+      .height = height,
       .data = std::move(table),
-      .moving = can_move(drawing, n) ? mode_animation(drawing, factors, box, panel) : ""};
+      .svg = svg_element("0 0 500 " + std::to_string(height), title + ". " + alt, svg + motion,
+                         slowed > 0 ? R"( tabindex="0")" : "")};
 }
 
 }  // namespace trammel::reports

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "reports/drawing/interval.h"
@@ -55,10 +56,12 @@ std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& tim
   return text + (work.empty() && time.size() < 2 ? "" : ".");
 }
 
-/// Draws curves of points on logarithmic axes, with the line of equal coordinates.
+/// Draws curves of points, with the line of equal coordinates.
 /// @param line  title of this line
+/// @param log   true for logarithmic axes
 Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& curves,
-               const std::string& x_label, const std::string& y_label, const std::string& line) {
+               const std::string& x_label, const std::string& y_label, const std::string& line,
+               bool log = true) {
   Interval x{1, 0}, y{1, 0};
   PlotScript script;
   std::vector<std::string> keys = {line};
@@ -74,8 +77,10 @@ Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& cur
     keys.push_back(title);
   }
   y.high = std::max(x.high, y.high);
-  script.log_axis("x", x.low, x.high);
-  script.log_axis("y", y.low, y.high);
+  if (log) {
+    script.log_axis("x", x.low, x.high);
+    script.log_axis("y", y.low, y.high);
+  }
   script.axis_label("x", x_label);
   script.axis_label("y", y_label);
   script.curve({{x.low, x.low}, {x.high, x.high}},
@@ -107,8 +112,8 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     if (effect.cumulative_change) cumulative.push_back({sum, y});
     largest = std::max({largest, change, sum});
     table.rows.push_back({effect.name, std::string(effect.active ? "on" : "off"),
-                          harness::number_or_null(effect.own_change),
-                          harness::number_or_null(effect.cumulative_change)});
+                          number_or_null(effect.own_change),
+                          number_or_null(effect.cumulative_change)});
   }
   if (table.rows.empty()) return std::nullopt;
   PlotScript script;
@@ -171,6 +176,27 @@ Figure error_coverage_figure() {
                              "decades. The statement covers the true errors above the line.",
                   .data = std::move(table)},
                  {{"errors", points}}, "true error", "stated error", "stated = true");
+}
+
+Figure order_figure(const std::vector<const Run*>& runs) {
+  std::set<std::vector<double>> places;
+  int near = 0;
+  Table table{words_in("case variant refinement quantity theory fitted"), {}};
+  for (const Run* run : runs)
+    for (const Convergence& c : run->convergence) {
+      if (!c.fitted_order || !c.theory_order || c.lower_order) continue;
+      const double theory = *c.theory_order, fitted = *c.fitted_order;
+      places.insert({theory, std::round(20 * fitted) / 20});
+      if (std::abs(fitted - theory) <= 0.1 * std::max(1.0, theory)) ++near;
+      table.rows.push_back({run->case_id, run->variant, c.sweep, c.quantity, theory, fitted});
+    }
+  return scatter({.id = "orders-fitted",
+                  .title = "Fitted against theoretical orders of convergence",
+                  .caption = std::to_string(near) + " of " + count(table.rows.size(), "order") +
+                             " lie within 10\u202f% of theory (the line).",
+                  .data = std::move(table)},
+                 {{"refinements", {places.begin(), places.end()}}}, "order by theory",
+                 "fitted order", "fitted = theory", false);
 }
 
 Figure call_history_figure(const History& history) {

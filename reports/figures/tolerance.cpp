@@ -12,8 +12,9 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kMinShare = 1e-8;  ///< left edge, where smaller fractions are drawn
-constexpr double kMaxShare = 100;   ///< right edge, where larger fractions and errors are drawn
+constexpr double kMinShare = 1e-8;         ///< left edge, where smaller fractions are drawn
+constexpr std::size_t kManyChecks = 2000;  ///< more checks are drawn at fewer positions
+constexpr double kMaxShare = 100;  ///< right edge, where larger fractions and errors are drawn
 
 /// Checks of a case that are drawn as points on one line.
 struct ToleranceRow {
@@ -35,7 +36,8 @@ double drawn_fraction(const Check& check) {
 bool is_shown(const Check& check) {
   if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
-         (check.verdict == Verdict::pass && is_numeric(check));
+         (check.verdict == Verdict::pass && is_numeric(check) &&
+          difference_over_tolerance(check) <= 1);  // a negative control passes beyond its tolerance
 }
 
 /// Returns a row for each case, or for each check if the family has only one case.
@@ -64,14 +66,16 @@ void keep_largest(std::vector<ToleranceRow>& rows) {
 }
 
 /// Returns the points of the checks for which `belongs` returns true.
+/// @param per_decade  number of distinct positions in a decade of the axis
 template <typename Belongs>
-PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) {
+PlotScript::Rows points(const std::vector<ToleranceRow>& rows, double per_decade, Belongs belongs) {
   PlotScript::Rows out;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
       if (belongs(*check)) out.push_back({drawn_fraction(*check), row_y(i)});
   // Points that would cover each other are drawn once.
-  for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
+  for (auto& point : out)
+    point[0] = std::pow(10, std::round(per_decade * std::log10(point[0])) / per_decade);
   std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -145,6 +149,9 @@ std::optional<Figure> tolerance_figure(const std::string& family,
 
   const std::string caption = conclusion(rows);
   if (largest_only) keep_largest(rows);
+  Table table = table_of(rows);
+  const bool many = table.rows.size() > kManyChecks;
+  const double per_decade = many ? 5 : 100;
   PlotScript script;
   draw_labels(script, rows, !largest_only);
   script.log_axis("x", kMinShare, kMaxShare);
@@ -159,9 +166,9 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   for (const auto& [role, color] :
        {std::pair("verification", 0U), std::pair("validation", 3U), std::pair("regression", 5U)}) {
     const auto belongs = [&, role = role](const Check& c) { return passes(c) && c.role == role; };
-    script.curve(points(rows, belongs), dot + lc(palette::color(color)), role);
+    script.curve(points(rows, per_decade, belongs), dot + lc(palette::color(color)), role);
   }
-  script.curve(points(rows, [&](const Check& c) { return !passes(c); }),
+  script.curve(points(rows, per_decade, [&](const Check& c) { return !passes(c); }),
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
@@ -171,9 +178,12 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                             : "Fraction of the tolerance used by each check",
       .caption = "Difference divided by the tolerance, with the limit 1 as a line. " + caption,
       .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
-      .height = 105 + (largest_only ? 8 : 40) * static_cast<int>(rows.size()),
+      .height = 105 + (largest_only ? 8
+                       : many       ? 28
+                                    : 40) *
+                          static_cast<int>(rows.size()),
       .commands = script.commands(),
-      .data = table_of(rows)};
+      .data = std::move(table)};
 }
 
 }  // namespace trammel::reports

@@ -117,28 +117,17 @@ Data cell(const Run* run, const Check* shown) {
                  {"time", not_computed ? "" : duration(run->cost.wall_s)}});
 }
 
-std::size_t entries_of(const Row& row, const Check& shown) {
-  std::ptrdiff_t most = 0;
-  const auto is_its = [&](const Check& c) {
-    return c.name == shown.name && c.quantity == shown.quantity;
-  };
-  for (const Run* run : row.runs)
-    if (run != nullptr) most = std::max(most, std::ranges::count_if(run->checks, is_its));
-  return static_cast<std::size_t>(most);
-}
-
 Data row_data(const Row& row) {
   const Check* shown = shown_check(row);
   const auto cell_of = [&](const Run* run) { return cell(run, shown); };
-  return object({{"title", row.info->title},
-                 {"variant", row.variant == "base" ? "" : row.info->variant_title(row.variant)},
-                 {"run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant)},
-                 {"other_case", row.other_case},
-                 {"quantity", shown == nullptr ? ""
-                                               : quantity_text(*shown) + " " +
-                                                     entry_text(*shown, entries_of(row, *shown))},
-                 {"expected", shown == nullptr ? "" : target_text(*shown)},
-                 {"cells", list_of(row.runs, cell_of)}});
+  return object(
+      {{"title", row.info->title},
+       {"variant", row.variant == "base" ? "" : row.info->variant_title(row.variant)},
+       {"run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant)},
+       {"other_case", row.other_case},
+       {"quantity", shown == nullptr ? "" : quantity_text(*shown) + " " + entry_text(*shown, 1)},
+       {"expected", shown == nullptr ? "" : target_text(*shown)},
+       {"cells", list_of(row.runs, cell_of)}});
 }
 
 /// Returns a table of the codes with their numbers of runs of each grade and their times.

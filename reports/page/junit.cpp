@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -81,7 +79,7 @@ std::string check_message(const CheckGroup& group) {
   return failure_text(group);
 }
 
-/// Returns a line for each value of a check, then the reason of the tolerance.
+/// Returns a line for each value of a check, then the reason for the tolerance.
 std::string check_output(const CheckGroup& group) {
   std::string text;
   for (const Check* check : group.checks) {
@@ -99,21 +97,6 @@ std::string run_output(const Run& run) {
   if (!run.reason.empty()) text += "; " + run.reason;
   for (const std::string& warning : run.warnings) text += "\nwarning: " + warning;
   return text;
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-std::string properties_of(const Environment& environment) {
-  std::string text = "    <properties>\n";
-  for (const auto& [name, value] : {std::pair("trammel", environment.trammel),
-                                    {"commit", environment.commit},
-                                    {"compiler", environment.compiler},
-                                    {"processor", environment.processor}})
-    text += "      <property" + attribute("name", name) + attribute("value", value) + "/>\n";
-  return text + "    </properties>\n";
 }
 
 /// Returns the JUnit test suite of a case. It has a test case named "status" for each run, and a
@@ -136,11 +119,9 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   }
   if (tally.tests == 0) return "";
   all.add(tally);
-  const Environment& environment = results.environment;
   return "  <testsuite" + attribute("name", info.id) + attributes(tally) +
          attribute("skipped", std::to_string(tally.elements["skipped"])) +
-         attribute("timestamp", environment.date) + attribute("hostname", host_name()) + ">\n" +
-         properties_of(environment) + body + "  </testsuite>\n";
+         attribute("timestamp", results.environment.date) + ">\n" + body + "  </testsuite>\n";
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ fs::path write_report(const Results& results, const fs::path& out) {
   const fs::path part = out / kUnfinishedFolder;
   try {
     std::vector<Family> families = plan_family_figures(results);
-    StudyFigures studies = plan_studies(results);
+    StudyFigures studies = plan_studies(results, families);
     std::vector<Figure*> figures = all_figures(families);
     for (Figure* figure : studies.all()) figures.push_back(figure);
     make_ids_unique(figures);

@@ -99,19 +99,26 @@ Data study_data(const CostStudy& study, const Figure& figure) {
 
 std::vector<Figure*> StudyFigures::all() {
   std::vector<Figure*> figures;
-  for (std::vector<Figure>* some : {&cost, &stress, &effects, &errors, &history})
+  for (std::vector<Figure>* some : {&trust, &cost, &stress, &effects, &errors, &history})
     for (Figure& figure : *some) figures.push_back(&figure);
   return figures;
 }
 
-StudyFigures plan_studies(const Results& results) {
-  StudyFigures figures{{}, {}, effect_scene_figures(results.effect_scenes), {}, {}};
-  if (results.claims) figures.errors.push_back(error_coverage_figure());
-  std::map<std::string, std::string> titles;
-  std::vector<const Run*> stress;
-  for (const Run& run : results.runs)
-    if (const CaseInfo& info = results.case_info(run.case_id); info.stress_suite)
-      stress.push_back(&run), titles[info.id] = info.title;
+StudyFigures plan_studies(const Results& results, const std::vector<Family>& families) {
+  StudyFigures figures{{}, {}, {}, effect_scene_figures(results.effect_scenes), {}, {}};
+  std::map<std::string, std::string> titles, groups;
+  std::vector<const Run*> stress, all;
+  for (const Family& family : families)
+    for (const Run* run : family.runs) {
+      const CaseInfo& info = results.case_info(run->case_id);
+      all.push_back(run), groups[info.id] = family.group;
+      if (info.stress_suite) stress.push_back(run), titles[info.id] = info.title;
+    }
+  if (results.claims) {
+    figures.errors.push_back(error_coverage_figure());
+    if (auto figure = tolerance_figure("all", groups, all)) figures.trust.push_back(*figure);
+    figures.trust.push_back(order_figure(all));
+  }
   if (auto figure = tolerance_figure("stress-cases", titles, stress, true))
     figures.stress.push_back(std::move(*figure));
   if (results.cost)

@@ -98,14 +98,17 @@ Data case_entry(const CaseInfo& info, const Family& family) {
                       {"counts", counts_list(counts_of(runs))}});
 }
 
-/// Returns the first small drawing of a shape or geometry among the cases of a family.
+/// Returns the first small drawing of a shape or geometry, without motion, among the cases of a
+/// family.
 std::string thumbnail_of(const Family& family) {
-  constexpr std::size_t kMaxSize = 5000;  // [bytes]
   for (const CaseInfo* info : family.cases)
     for (const auto part : {&Gallery::shown, &Gallery::sketch})
-      for (const Figure& figure : family.galleries.at(info->id).*part)
-        if (figure.svg.size() <= kMaxSize && figure.svg.find(" data-axes=") == std::string::npos)
-          return figure.svg;
+      for (const Figure& figure : family.galleries.at(info->id).*part) {
+        const std::string still = figure.svg.substr(0, figure.svg.find("<style>"));
+        const bool is_plot = still.find(" data-axes=") != std::string::npos;
+        if (still.size() <= 5000 && (!is_plot || family.galleries.at(info->id).sketch.empty()))
+          return still + (still == figure.svg ? "" : "</svg>");
+      }
   return "";
 }
 

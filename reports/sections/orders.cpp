@@ -31,8 +31,6 @@ std::vector<OrderRow> rows_of(const Run& run) {
 struct Findings {
   std::size_t rows = 0, entries = 0;
   Interval order, law;               ///< fitted orders; relative misfits of two-term laws
-  double first = 0, last = 0;        ///< largest error on the coarsest and on the finest mesh
-  Number extrapolated;               ///< largest relative error of the extrapolated values
   std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
 
   void add(const OrderRow& row) {
@@ -42,20 +40,12 @@ struct Findings {
   void add(const Convergence& c) {
     ++entries;
     if (c.two_term) law.cover(c.two_term->max_relative_misfit);
-    Numbers errors = c.error;
-    std::erase_if(errors, [](Number error) { return !error; });
-    if (!errors.empty()) {
-      first = std::max(first, *errors.front());
-      last = std::max(last, *errors.back());
-    }
     if (!c.lower_order) order.cover(c.fitted_order);
     if (!c.lower_order && c.fitted_order && c.theory_order) {
       ++fitted;
       const double difference = std::abs(*c.fitted_order - *c.theory_order);
       if (difference <= kOrderTolerance * std::max(1.0, *c.theory_order)) ++near;
     }
-    if (c.exact.value_or(0) != 0 && c.richardson)
-      extrapolated = std::max(extrapolated.value_or(0), std::abs(*c.richardson / *c.exact - 1));
   }
 };
 
@@ -78,9 +68,7 @@ std::vector<std::string> cells_of(const OrderRow& row, const std::string& varian
   std::string quantity = to_text(parse_quantity(row.front()->quantity));
   if (row.size() > 1) quantity += ", " + count(row.size(), "entry", "entries");
   if (!variant.empty()) quantity += "; " + variant;
-  return {quantity, theory_text(*row.front()), observed_text(findings),
-          significant(findings.first, 2) + " to " + significant(findings.last, 2),
-          findings.extrapolated ? significant(*findings.extrapolated, 2) : "–"};
+  return {quantity, theory_text(*row.front()), observed_text(findings)};
 }
 
 std::string conclusion_of(const Findings& all) {
@@ -95,9 +83,7 @@ std::string conclusion_of(const Findings& all) {
 }
 
 Data family_of(const Family& family, Findings& all) {
-  TextTable table{family.title,
-                  {"Quantity", ">Order by theory", ">Observed", ">Error, coarsest to finest",
-                   ">Error of the extrapolated value"}};
+  TextTable table{family.title, {"Quantity", ">Order by theory", ">Observed"}};
   for (const CaseInfo* info : family.cases) {
     const std::size_t before = table.rows.size();
     for (const Run* run : family.runs_of(info->id)) {
@@ -114,15 +100,14 @@ Data family_of(const Family& family, Findings& all) {
   }
   table.caption = conclusion_of(all);
   Data data = table_data(table);
-  set(data, {{"folded_title", count(all.rows, "row")},
-             {"near", all.fitted > 0 ? std::to_string(all.near) : ""},
-             {"others", std::to_string(all.fitted - all.near)}});
+  set(data, {{"folded_title", count(all.rows, "row")}});
   return data;
 }
 
 }  // namespace
 
-Data convergence_section(const Results& results, const std::vector<Family>& families) {
+Data convergence_section(const Results& results, const std::vector<Family>& families,
+                         const StudyFigures& figures) {
   Data shown = list();
   std::size_t entries = 0;
   for (const Family& family : families) {
@@ -145,6 +130,7 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
                  {"words", "Theoretical and observed orders of " +
                                count(entries, "refined quantity", "refined quantities") + "."},
                  {"coverage", text},
+                 {"figures", list_of(figures.trust, figure_data)},
                  {"families", shown}});
 }
 

@@ -41,12 +41,14 @@ inline constexpr const char* kLeadFigure = "cost-modes-elements";
 
 /// Figures of studies of many cases. `plan_studies` does not draw the figures.
 struct StudyFigures {
-  std::vector<Figure> cost;  ///< one figure for each cost study of the results
+  std::vector<Figure> trust;  ///< fractions of tolerances, and orders of convergence
+  std::vector<Figure> cost;   ///< one figure for each cost study of the results
   std::vector<Figure> stress, effects, errors, history;
 
   [[nodiscard]] std::vector<Figure*> all();
 };
-[[nodiscard]] StudyFigures plan_studies(const Results& results);
+[[nodiscard]] StudyFigures plan_studies(const Results& results,
+                                        const std::vector<Family>& families);
 
 /// Claims of the publication under examination, each with the measured values and a verdict.
 [[nodiscard]] Data claims_section(const Results& results);
@@ -83,7 +85,8 @@ struct StudyFigures {
 
 /// Observed and theoretical orders of convergence. The section also shows the fraction of
 /// refinement levels on which the numerical uncertainty (GCI) covers the exact value.
-[[nodiscard]] Data convergence_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data convergence_section(const Results& results, const std::vector<Family>& families,
+                                       const StudyFigures& figures);
 
 /// Provenance of all references.
 [[nodiscard]] Data references_section(const Results& results);

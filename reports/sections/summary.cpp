@@ -253,8 +253,8 @@ Data tiles_of(const Results& results) {
   const Targets targets = targets_of(results);
   if (!targets.printed.empty())
     tiles.push_back(tile(std::to_string(targets.printed.size()), "Printed numbers that differ",
-                         "from the computed ones; " + known_checks_text(results) +
-                             " compare " + targets.text() + ".",
+                         "from the computed ones; " + known_checks_text(results) + " compare " +
+                             targets.text() + ".",
                          "paper.html#known", CheckStatus::known_discrepancy));
   return tiles;
 }
@@ -355,7 +355,10 @@ Data summary_section(const Results& results, const std::vector<Family>& families
 Data front_page_section(const Results& results, const std::vector<Family>& families,
                         const StudyFigures& studies) {
   const Data answer = manipulator_figures(families), questions = study_figures(studies);
+  Data trust = list();
+  for (const Figure& figure : studies.trust) add_figure(figure, "orders.html", trust);
   return object({{"tiles", tiles_of(results)},
+                 {"trust", trust},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},
                  {"has_questions", questions.is_non_empty_list()},

@@ -194,15 +194,14 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
         row.insert(row.end(), cells.begin(), cells.end());
       };
       add({info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity});
-      add({harness::number_or_null(c.index ? Number(*c.index + 1) : Number()), c.unit,
-           harness::number_or_null(c.expected)});
-      add({harness::number_or_null(c.computed), c.measure, harness::number_or_null(c.difference),
-           harness::number_or_null(range.low), harness::number_or_null(range.high)});
+      add({number_or_null(c.index ? Number(*c.index + 1) : Number()), c.unit,
+           number_or_null(c.expected)});
+      add({number_or_null(c.computed), c.measure, number_or_null(c.difference),
+           number_or_null(range.low), number_or_null(range.high)});
       add({std::string(c.is_known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
-      add({verdict_text(c), c.message, harness::number_or_null(error),
-           harness::number_or_null(entry.u_num), harness::number_or_null(entry.u_input)});
-      add({harness::number_or_null(entry.u_reference), harness::number_or_null(entry.u_val),
-           entry.dominant_input});
+      add({verdict_text(c), c.message, number_or_null(error), number_or_null(entry.u_num),
+           number_or_null(entry.u_input)});
+      add({number_or_null(entry.u_reference), number_or_null(entry.u_val), entry.dominant_input});
     }
   return table;
 }

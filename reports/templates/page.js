@@ -99,7 +99,7 @@ function readable(svg) {
 }
 document.querySelectorAll("figure svg[data-axes]").forEach(readable);
 
-// Animates modes, all slowed down by the same factor, and motions. If the reader prefers reduced motion, a button starts them.
+// Animates motions. If the reader prefers reduced motion, a button starts them.
 function outlines(parent, drawn, color) {
   const paths = color ? [["fill", {fill: "#dde6f0", "fill-rule": "evenodd"}], ["edges", {stroke: color, "stroke-width": 12}],
     ["lines", {stroke: color, "stroke-width": 22, "stroke-linejoin": "round"}]] : ["edges", "lines"].map(name => [name, {stroke: "#a6aeb8", "stroke-width": 11}]);
@@ -107,22 +107,10 @@ function outlines(parent, drawn, color) {
   return at => all.forEach(([path, lines]) => path.setAttribute("d",
     lines.map(line => "M" + line.map(i => at[2 * i].toFixed() + "," + at[2 * i + 1].toFixed()).join("L")).join("")));
 }
-// Returns a function that draws the modes at a time, and the factor by which they are slowed down.
-function swinging(modes, panel) {
-  const shapes = modes.shapes.map((shape, k) => {
-    const g = panel(k);
-    made(g, "text", {x: modes.panel[0] / 2, y: -70}, shape.label);
-    outlines(g, modes)(modes.nodes);
-    const show = outlines(g, modes, "#1f5fa8"), hz = parseFloat(shape.label.split(", ")[1]) || 0;
-    return {hz, draw: t => { const s = Math.cos(2 * Math.PI * hz * t); show(modes.nodes.map((x, i) => x + s * shape.moved[i])); }};
-  });
-  const all = shapes.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
-  return {draw: t => shapes.forEach(shape => shape.draw(t)), slowed: Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4)};
-}
-// Returns the same for a motion, which repeats after its last instant.
-function running(motion, panel) {
+// Returns a function that draws a motion at a time, its length, and the factor by which it is slowed down. It repeats.
+function running(motion, g) {
   const sums = rows => rows.slice(1).reduce((all, row) => [...all, row.map((step, i) => all.at(-1)[i] + step)], [rows[0]]);
-  const g = panel(0), text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;
+  const text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;
   const sets = [motion.still && [sums(motion.still), outlines(g, motion)], [sums(motion.moved), outlines(g, motion, "#1f5fa8")]].filter(Boolean);
   return {length, slowed: 4 / length, draw: t => {
     const now = start + t % length, k = Math.max(1, times.findIndex(time => time >= now)), share = (now - times[k - 1]) / (times[k] - times[k - 1]);
@@ -132,11 +120,11 @@ function running(motion, panel) {
 }
 function moving(svg) {
   const data = JSON.parse(svg.querySelector("metadata").textContent), [width, height] = data.panel;
-  const panels = data.shapes ? data.shapes.length : 1, columns = panels > 1 ? 2 : 1, head = 240, rows = Math.ceil(panels / columns);
-  const picture = made(svg.parentElement, "svg", {viewBox: `0 0 ${columns * width} ${rows * (height + head)}`, role: "img",
+  const head = 240;
+  const picture = made(svg.parentElement, "svg", {viewBox: `0 0 ${width} ${height + head}`, role: "img",
     "aria-label": svg.getAttribute("aria-label"), "font-family": "Helvetica, Arial, sans-serif", fill: "none", class: "moving"});
-  const {draw, slowed, length} = (data.shapes ? swinging : running)(data, k => made(picture, "g", {fill: "#1d232b", "font-size": 150, "text-anchor": "middle",
-    transform: `translate(${k % columns * width},${Math.floor(k / columns) * (height + head) + head})`}));
+  const {draw, slowed, length} = running(data, made(picture, "g", {fill: "#1d232b", "font-size": 150, "text-anchor": "middle",
+    transform: `translate(0,${head})`}));
   const bar = made(svg.parentElement, "p", {class: "motion"}), button = made(bar, "button", {type: "button"});
   const slider = (name, before, after, values) => {
     const label = made(bar, "label", {}, before), input = made(label, "input", {type: "range", name, ...values});
@@ -144,7 +132,7 @@ function moving(svg) {
     return input;
   };
   const speed = slider("speed", "slower ", " faster", {min: -1, max: 1, step: 0.1, value: 0});
-  const time = length && slider("time", "time ", "", {min: 0, max: 1, step: 0.01, value: 0});
+  const time = slider("time", "time ", "", {min: 0, max: 1, step: 0.01, value: 0});
   const said = made(bar, "span");
   let t = 0, before, wanted = !matchMedia("(prefers-reduced-motion: reduce)").matches, seen = false, isRunning = false;
   const slower = () => slowed / 10 ** speed.value;
@@ -152,7 +140,7 @@ function moving(svg) {
     isRunning = wanted && seen;
     if (before !== undefined) t += Math.min(now - before, 100) / 1000 / slower();
     before = isRunning ? now : undefined;
-    if (isRunning && time) time.value = t % length / length;
+    if (isRunning) time.value = t % length / length;
     draw(t);
     if (isRunning) requestAnimationFrame(step);
   };
@@ -164,7 +152,7 @@ function moving(svg) {
   };
   button.addEventListener("click", () => { wanted = !wanted; update(); });
   speed.addEventListener("input", update);
-  if (time) time.addEventListener("input", () => { wanted = false; before = undefined; t = 0.999999 * time.value * length; draw(t); update(); });
+  time.addEventListener("input", () => { wanted = false; before = undefined; t = 0.999999 * time.value * length; draw(t); update(); });
   new IntersectionObserver(entries => { seen = entries.at(-1).isIntersecting; update(); }).observe(picture);
   svg.classList.add("still");
   draw(0);

@@ -15,28 +15,7 @@
 
 namespace trammel::reports {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// Blocks the signals that end the program while an object of this class exists.
-class SignalsWait {
- public:
-  SignalsWait() {
-    sigset_t ending;
-    sigemptyset(&ending);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
-    pthread_sigmask(SIG_BLOCK, &ending, &before_);
-  }
-  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
-}  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -77,7 +56,10 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
       throw std::system_error(ENOTDIR, std::generic_category(),
                               folder.string() + ": expected a folder, but it is a file");
   }
-  const SignalsWait wait;
+  sigset_t ending, before;
+  sigemptyset(&ending);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+  pthread_sigmask(SIG_BLOCK, &ending, &before);
   for (const fs::path& file : files) {
     const fs::path folder = (to / file).parent_path();
     if (file.has_parent_path() && !fs::is_directory(fs::symlink_status(folder))) fs::remove(folder);
@@ -88,6 +70,7 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   for (const fs::path& file : obsolete)
     if (std::ranges::find(files, file) == files.end()) fs::remove(to / file, ignored);
   fs::remove_all(from);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 std::string to_csv(const Table& table) {

@@ -9,6 +9,8 @@
 /// Reading and writing of text files, conversion of tables to CSV, and templates of pages.
 namespace trammel::reports {
 
+using harness::number_or_null;
+
 /// Returns the text of a file. @throws std::system_error  if the file cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 /// Writes a temporary file and renames it to `path`, so that `path` is never an incomplete file. If

@@ -186,10 +186,6 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
-  BOOST_TEST(
-      contains(figure->caption,
-               "The largest distance of a point from its start is 1.68\u202fm, at 10\u202fs."),
-      figure->caption);
   BOOST_TEST(contains(figure->caption, "21 instants up to 10\u202fs"), figure->caption);
   BOOST_TEST(figure->data.rows.size() == 42U);
   BOOST_TEST(!contains(figure->moving, "still"));
@@ -204,11 +200,15 @@ BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
   BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
                       "1 mode is a rigid-body mode. Modes 2 to 4 have 10\u202fHz to 20\u202fHz."),
              shapes_figure(beam(), run)->caption);
+  const std::string svg = shapes_figure(beam(), run)->svg;
+  BOOST_TEST(contains(svg, "-1-links;animation-duration:1s"), svg);  // mode 2, 0.5 Hz
+  BOOST_TEST(contains(svg, "-3-links;animation-duration:0.5s"));
+  BOOST_TEST(!contains(svg, "-0-links"));
   run.drawing->shapes.resize(1);
   run.drawing->shapes[0].label = "mode 1, 1.4e+04 times the loads";
   const auto buckled = shapes_figure(beam(), run);
   BOOST_TEST(contains(buckled->caption, "The lowest mode buckles at 1.4e+04 times the loads."));
-  BOOST_TEST(contains(buckled->commands, "mode 1, 1.4\u202f×\u202f10⁴ times the loads"));
+  BOOST_TEST(contains(buckled->svg, "mode 1, 1.4\u202f×\u202f10⁴ times the loads"));
   run.drawing->shapes = {{"in phase", {{0, 0}, {0, 0}}}, {"behind", {{0, 0}, {0, -0.001}}}};
   BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
                       "largest displacement is 1\u202fmm (behind), magnified 130 times."),

@@ -21,7 +21,7 @@ constexpr const char* kPages[] = {"index.html", "families/beam-modes.html",
 void check_at(int width, const std::string& name) {
   const auto page = sample_report() / name;
   const std::string text = read_text_file(page);
-  const std::size_t thumbnails = occurrences(text, "class=\"thumbnail\"><svg ");
+  const std::size_t thumbnails = occurrences(text, "class=\"thumbnail\" inert><svg ");
   const auto figures = static_cast<int>(occurrences(text, "<svg ") - thumbnails);
   const Visit seen = visit_framed(page, width);
   BOOST_TEST(measured(seen, "width") == width);
