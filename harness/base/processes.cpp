@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -18,12 +19,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/stopwatch.h"
@@ -33,7 +37,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Termination = ProcessOutcome::Termination;
+using Ended = std::function<void(std::size_t, const ProcessOutcome&)>;
 
+constexpr long kLargeProcess_kB = 500'000;  ///< a worker with more memory ends after its task
 constexpr int kOutOfMemory = 12;  // exit status of a process that could not allocate memory
 /// A process is stopped as hung if its wall time exceeds this factor times its limit of processor
 /// time.
@@ -100,11 +106,18 @@ void limit(__rlimit_resource resource, std::size_t most) {
   _exit(127);
 }
 
+/// Message in the pipe from a worker: the start of a task, or its answer, whose text follows.
+struct Message {
+  std::size_t task = 0;
+  std::size_t bytes = std::string::npos;  ///< length of the answer; npos: start
+  double wall_s = 0, cpu_s = 0;
+};
+
 struct Child {
   pid_t process = -1;
-  int output = -1;  ///< read end of the pipe from the child
-  std::size_t task = 0;
-  unsigned cpu_limit_s = 0;
+  int output = -1;                             ///< read end of the pipe from the child
+  std::optional<std::size_t> task = {};        ///< task that a worker has started and not answered
+  unsigned cpu_limit_s = 0;                    ///< limit of this task
   std::size_t kept_bytes = std::string::npos;  ///< length of the tail of the output that is kept
   std::string text = {};
   Stopwatch watch = {};
@@ -163,27 +176,45 @@ ProcessOutcome reap(const Child& child) {
           seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
 }
 
-/// Runs a task in a child process. The parent process handles signals that stop the program.
-[[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
+void put(int out, const void* data, std::size_t bytes) {
+  const auto* from = static_cast<const char*>(data);
+  for (std::size_t written = 0; written < bytes;) {
+    const ssize_t n = write(out, from + written, bytes - written);
+    if (n <= 0) _exit(1);
+    written += static_cast<std::size_t>(n);
+  }
+}
+
+/// Runs tasks in a child process until none is left. The parent process handles signals that stop
+/// the program.
+/// @param next  number of the next task that no worker has started, shared by all workers
+[[noreturn]] void work_on(const std::vector<ProcessTask>& tasks, std::atomic<std::size_t>& next,
+                          std::size_t memory_bytes, int out) noexcept {
   set_out_of_memory_exit(kOutOfMemory, "");
   // An allocation failure ends the process without an exception. An exception would leave
   // incomplete JSON values, whose destructor reads a null pointer.
   std::set_new_handler([] { _exit(kOutOfMemory); });
-  const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
-  setrlimit(RLIMIT_CPU, &cpu);
-  alarm(kHangTimeoutFactor * task.cpu_limit_s);
   if (kLimitsMemory && memory_bytes > 0) limit(RLIMIT_AS, memory_bytes);
   allowed_bytes = memory_bytes;
-  std::string text;
-  try {
-    text = task.work();
-  } catch (const std::bad_alloc&) {
-    _exit(kOutOfMemory);
-  }
-  for (std::size_t written = 0; written < text.size();) {
-    const ssize_t n = write(out, text.data() + written, text.size() - written);
-    if (n <= 0) _exit(1);
-    written += static_cast<std::size_t>(n);
+  for (std::size_t number = 0; (number = next++) < tasks.size();) {
+    const Message start{number};
+    put(out, &start, sizeof start);
+    const Stopwatch watch;
+    const auto used_s = static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC);
+    const rlimit cpu{used_s + tasks[number].cpu_limit_s + 1, RLIM_INFINITY};
+    setrlimit(RLIMIT_CPU, &cpu);
+    alarm(kHangTimeoutFactor * tasks[number].cpu_limit_s);
+    try {
+      const std::string text = tasks[number].work();
+      const Message answer{number, text.size(), watch.wall_s(), watch.cpu_s()};
+      put(out, &answer, sizeof answer);
+      put(out, text.data(), text.size());
+    } catch (const std::bad_alloc&) {
+      _exit(kOutOfMemory);
+    }
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    if (used.ru_maxrss > kLargeProcess_kB) break;  // frees its memory
   }
   _exit(0);
 }
@@ -205,8 +236,7 @@ ProcessOutcome outcome_of(Child& child) {
     return without_answer(Termination::crashed,
                           fmt::format("the computation ended with status {}", status));
   }
-  if (status == SIGXCPU || status == SIGALRM ||
-      (status == SIGKILL && outcome.cpu_s >= child.cpu_limit_s))
+  if (status == SIGXCPU || status == SIGALRM)
     return without_answer(Termination::timed_out,
                           fmt::format("stopped after {} s of processor time", child.cpu_limit_s));
   if (status == SIGKILL)
@@ -277,23 +307,21 @@ class ProcessPool {
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  /// @returns true if the process was started; if false, errno contains the reason
-  bool start(std::size_t number, const ProcessTask& task, std::size_t memory_bytes) {
+  /// Starts a worker. @returns true if it was started; if false, errno contains the reason
+  bool start(const std::vector<ProcessTask>& tasks, std::atomic<std::size_t>& next,
+             std::size_t memory_bytes) {
     Child child = start_child([&](int out) {  // closes unused file descriptors
       for (const Child& other : children_) close(other.output);
       close(signals_);
-      compute(task, memory_bytes, out);
+      work_on(tasks, next, memory_bytes, out);
     });
-    if (child.process < 0) return false;
-    child.task = number;
-    child.cpu_limit_s = task.cpu_limit_s;
-    children_.push_back(std::move(child));
-    return true;
+    if (child.process >= 0) children_.push_back(std::move(child));
+    return child.process >= 0;
   }
 
-  /// Reads available answers of the child processes.
+  /// Reads available answers of the workers.
   /// @returns the signal if one was received, else 0
-  int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended,
+  int wait(const std::vector<ProcessTask>& tasks, const Ended& ended,
            const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
     for (const Child& child : children_) ready.push_back({child.output, POLLIN, 0});
@@ -303,16 +331,38 @@ class ProcessPool {
     if (signalfd_siginfo came{}; ready[0].revents != 0)
       return read(signals_, &came, sizeof came) > 0 ? static_cast<int>(came.ssi_signo) : 0;
     for (std::size_t i = children_.size(); i-- > 0;) {
-      if (ready[i + 1].revents == 0 || drain(children_[i])) continue;
+      if (ready[i + 1].revents == 0) continue;
+      const bool goes_on = drain(children_[i]);
+      while (take_message(children_[i], tasks, ended)) continue;
+      if (goes_on) continue;
       Child child = std::move(children_[i]);
       children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
       close(child.output);
-      ended(child.task, outcome_of(child));
+      const ProcessOutcome outcome = outcome_of(child);
+      if (child.task) ended(*child.task, outcome);
     }
     return 0;
   }
 
  private:
+  /// Takes the start or the complete answer of a task from the output of a worker.
+  /// @returns false if the output contains neither
+  static bool take_message(Child& child, const std::vector<ProcessTask>& tasks,
+                           const Ended& ended) {
+    Message head;
+    std::string& text = child.text;
+    if (text.size() < sizeof head) return false;
+    std::memcpy(&head, text.data(), sizeof head);
+    const bool starts = head.bytes == std::string::npos;
+    if (!starts && text.size() < sizeof head + head.bytes) return false;
+    const std::string answer = starts ? "" : text.substr(sizeof head, head.bytes);
+    text.erase(0, sizeof head + answer.size());
+    child.task = starts ? std::optional(head.task) : std::nullopt;
+    child.cpu_limit_s = tasks[head.task].cpu_limit_s;
+    if (!starts) ended(head.task, {Termination::answered, answer, 0, head.wall_s, head.cpu_s});
+    return true;
+  }
+
   std::vector<Child> children_;
   sigset_t before_{};
   int signals_ = -1;
@@ -361,20 +411,23 @@ std::size_t memory_limit_bytes() {
 
 int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
                      const std::function<void(std::size_t, const ProcessOutcome&)>& ended) {
+  // The memory of the counter is shared with the workers.
+  void* shared = mmap(nullptr, sizeof(std::atomic<std::size_t>), PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) throw std::bad_alloc();
+  auto& next = *new (shared) std::atomic<std::size_t>(0);
+  int signal = 0;
   ProcessPool pool;
-  std::size_t next = 0;
-  while (next < tasks.size() || pool.size() > 0) {
-    bool room = true;
-    while (room && next < tasks.size() && pool.size() < std::max(1U, options.at_once)) {
-      room = pool.start(next, tasks[next], options.memory_bytes);
-      if (!room && pool.size() > 0) break;
-      if (!room) ended(next, {Termination::not_started, std::strerror(errno)});
-      ++next;
-    }
-    if (pool.size() == 0) continue;
-    if (const int signal = pool.wait(ended, options.waiting); signal != 0) return signal;
+  while (signal == 0 && (next < tasks.size() || pool.size() > 0)) {
+    while (next < tasks.size() && pool.size() < std::max(1U, options.at_once))
+      if (!pool.start(tasks, next, options.memory_bytes)) {
+        if (pool.size() > 0) break;
+        ended(next++, {Termination::not_started, std::strerror(errno)});
+      }
+    if (pool.size() > 0) signal = pool.wait(tasks, ended, options.waiting);
   }
-  return 0;
+  munmap(shared, sizeof next);
+  return signal;
 }
 
 ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options) {

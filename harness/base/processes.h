@@ -42,8 +42,9 @@ void set_out_of_memory_exit(int status, const char* line);
 /// smallest of machine memory, cgroup limit and address space.
 [[nodiscard]] std::size_t memory_limit_bytes();
 
-/// Runs each task in a process forked from this one, which must have a single thread. If the system
-/// cannot start another process, a running process is awaited first.
+/// Runs the tasks in worker processes forked from this one, which must have a single thread. Each
+/// worker runs one task after another. If a task ends its worker, another worker is started. If the
+/// system cannot start another process, the running workers do all tasks.
 /// @param ended  called in this process when a task ends, in any order
 /// @returns SIGINT or SIGTERM if it was received, else 0. After a signal, running tasks are killed
 ///   and the others are not started.
@@ -66,9 +67,9 @@ struct ProgramLimits {
 /// Returns the path of a program in the folders of PATH; empty if there is none.
 [[nodiscard]] std::string find_program(const std::string& name);
 
-/// Runs a program in a folder, which is also its TMPDIR, in a separate session without standard
-/// input. Then kills the program with all its descendants. The outcome is `answered` for any exit
-/// status. This process must have no other children.
+/// Runs a program until it ends or exceeds a limit, and kills its remaining descendants. The
+/// program has the working folder and TMPDIR `folder`, a separate session, and no standard input.
+/// The outcome is `answered` for any exit status. This process must have no other children.
 /// @param words  the program's path, then its arguments
 [[nodiscard]] ProcessOutcome run_limited(const std::vector<std::string>& words,
                                          const std::filesystem::path& folder,

@@ -23,7 +23,6 @@
 #include "harness/run/run.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/rethrow_as_input.h"
-#include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
 namespace {
@@ -117,28 +116,14 @@ void describe_checks(const Document& document, const std::vector<Check>& checks,
   }
 }
 
-void describe_inputs(const Document& document, const References& references) {
-  if (!document.value().contains("uncertainty")) return;
-  std::cout << "\nInput uncertainties\n";
-  Rows table({"input", "half width", "", "why"});
-  for (const results::UncertainInput& input : uncertain_inputs(document, references))
-    table.add({input.name, *input.half_width,
-               input.nominal ? "only if nominal lengths are taken literally" : "", input.why});
-  table.print(std::cout, "  ");
-}
-
 void describe_sweeps(const Case& given) {
   const auto sweeps = JsonView(given.document).find("sweeps");
   if (!sweeps) return;
   std::cout << "\nSweeps\n";
   for (const auto& [sweep, place] : sweeps->entries()) {
     std::cout << "  " << sweep << "  " << place["values"].json().dump();
-    if (place.has("theory_order")) {
-      std::cout << ", order " << shortest_decimal(place.number("theory_order"));
-      if (place.has("lower_order"))
-        std::cout << " and " << shortest_decimal(place.number("lower_order"));
-      std::cout << " by theory";
-    }
+    if (place.has("theory_order"))
+      std::cout << ", order " << shortest_decimal(place.number("theory_order")) << " by theory";
     std::cout << '\n';
   }
 }
@@ -270,7 +255,6 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   const References references;
   describe_sweeps(given);
   describe_effects(document);
-  describe_inputs(document, references);
   describe_checks(document, read_checks(document, variant, given.variants()), references);
   const auto used = references.requested_references();
   if (!used.empty()) std::cout << "\nReferences\n";

@@ -65,8 +65,7 @@ Rule read_rule(const JsonView& interpretation) {
   read("confirms", rule.confirms, kConfirms);
   read("contradicts", rule.contradicts, kContradicts);
   if (!rule.confirms && !rule.contradicts)
-    throw interpretation.error(
-        "an interpretation requires a range of values for 'confirms' or 'contradicts'");
+    throw interpretation.error("expected at least one of the ranges 'confirms' and 'contradicts'");
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
     throw interpretation.error("the ranges 'confirms' and 'contradicts' overlap");

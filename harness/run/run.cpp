@@ -214,8 +214,7 @@ std::string request_of(const Task& task) {
   return shortest_decimal(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
 
-/// Computes the tasks that are missing from the store. Tasks that were interrupted most often are
-/// computed last, so that a long run does not block other runs.
+/// Computes the tasks that are missing from the store.
 /// @returns the signal that ended the computation early, else 0
 int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<std::pair<Task*, std::filesystem::path>> open;
@@ -236,17 +235,10 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::error_code error;
   if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
   if (!options.store.empty()) remove_unused_files(options.store);
-  if (options.resume)
-    std::ranges::stable_sort(open, [](const auto& a, const auto& b) {
-      return count_interrupted_starts(a.second) < count_interrupted_starts(b.second);
-    });
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
     work.push_back(
-        {[&options, run = task, stored = file] {
-           if (!stored.empty()) mark_started(stored);
-           return answer_of(*run, options);
-         },
+        {[&options, run = task] { return answer_of(*run, options); },
          options.solver.compute ? options.solver.time_limit_s : time_limit_s(task->document)});
   std::size_t done = tasks.size() - work.size();
   const auto show = [&] {
@@ -256,7 +248,6 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome, options);
-                            if (!file.empty()) clear_start_record(file);
                             if (!file.empty() && !has_broken(task->run)) {
                               write_file(file, outcome.text);
                               task->run.stored = file.filename().string();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <new>
@@ -131,11 +130,6 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
   return name_of(text_of_json(all));
 }
 
-/// Returns the path of a file with one byte for each call that started the computation of `file`.
-std::filesystem::path started(std::filesystem::path file) {
-  return file.replace_extension(".started");
-}
-
 /// Returns the cases that the analysis "options" of a case computes; empty for other analyses.
 Json tried_cases(const Document& document) {
   Json tried = Json::object();
@@ -189,21 +183,6 @@ bool load_stored_run(const std::filesystem::path& file, Run& run, bool any_machi
   return true;
 }
 
-std::size_t count_interrupted_starts(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(started(file), error);
-  return error ? 0 : static_cast<std::size_t>(bytes);
-}
-
-void mark_started(const std::filesystem::path& file) {
-  std::ofstream(started(file), std::ios::app) << '.';
-}
-
-void clear_start_record(const std::filesystem::path& file) {
-  std::error_code error;
-  std::filesystem::remove(started(file), error);
-}
-
 results::CostStudy cached_cost_study(const CostStudy& study, const CostOptions& options,
                                      const References& references,
                                      const std::filesystem::path& store, bool resume) {
@@ -235,8 +214,7 @@ void remove_unused_files(const std::filesystem::path& store) {
   std::error_code error;
   const auto oldest = std::filesystem::file_time_type::clock::now() - std::chrono::days(30);
   for (const auto& entry : std::filesystem::directory_iterator(store, error))
-    if ((entry.path().extension() == ".cbor" || entry.path().extension() == ".started") &&
-        entry.last_write_time(error) < oldest)
+    if (entry.path().extension() == ".cbor" && entry.last_write_time(error) < oldest)
       std::filesystem::remove(entry.path(), error);
 }
 

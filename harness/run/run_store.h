@@ -35,13 +35,6 @@ namespace trammel::harness {
 [[nodiscard]] bool load_stored_run(const std::filesystem::path& file, Run& run,
                                    bool any_machine = false, const References& references = {});
 
-/// Returns the number of interrupted calls that had started the computation stored in `file`.
-[[nodiscard]] std::size_t count_interrupted_starts(const std::filesystem::path& file);
-/// Write a record, next to a file of the store, that the computation of the file has started;
-/// delete this record.
-void mark_started(const std::filesystem::path& file);
-void clear_start_record(const std::filesystem::path& file);
-
 /// Measures a cost study, or reads its results from the store. The stored study must have the same
 /// settings, program, options, machine and references.
 [[nodiscard]] results::CostStudy cached_cost_study(const CostStudy& study,

@@ -82,24 +82,6 @@ BOOST_AUTO_TEST_CASE(resumed_run_returns_identical_results) {
   BOOST_TEST(run_all(folder, json, true).results == first);
 }
 
-BOOST_AUTO_TEST_CASE(interrupted_run_is_resumed_last) {
-  const Folder folder;
-  const Json json = cases(folder, 100);
-  const Document base = patched(testing::read(folder, json), kBaseVariant);
-  const fs::path store = folder.path() / "store",
-                 first = store / run_file_name(base, true, "errors");
-  fs::create_directories(store);
-  mark_started(first);
-  mark_started(first);
-  BOOST_TEST(count_interrupted_starts(first) == 2U);
-  (void)run_all(folder, json, true);
-  BOOST_TEST(count_interrupted_starts(first) == 0U);
-  const auto files = entries(store);
-  BOOST_TEST(files.size() == 3U);
-  for (const fs::path& file : files)
-    BOOST_TEST((fs::last_write_time(file) <= fs::last_write_time(first)), file);
-}
-
 BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
   const Folder folder;
   const Json json = cases(folder, 100);
