@@ -94,8 +94,8 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     const double now = solver::jacobians(geometry, point.pose, posture).parallel.determinant();
     if (before * now < 0) {
       add_warning(warnings,
-                  {"the time before which the path crosses a parallel singularity", point.time,
-                   " s", "rigid links need infinite torques there; hinged links lose stiffness"});
+                  {"the time of the first point after a parallel singularity", point.time, " s",
+                   "rigid links need infinite torques there; hinged links lose stiffness"});
       return;
     }
     if (now != 0) before = now;

@@ -22,7 +22,7 @@ struct EffectWords {
 };
 
 constexpr const char* kAtRest = "statics has no motion";
-constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
+constexpr const char* kNoRotary = "the beam theory of the sections has no rotary inertia";
 constexpr const char* kNoMass = "no member has a mass";
 constexpr const char* kNotTurning = "the frame does not rotate";
 constexpr const char* kNotTurningInPlane = "no frame rotates about an axis normal to the plane";
@@ -59,7 +59,7 @@ const EffectWords& words_of(Effect effect) {
       {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "'rotating_frame' is always kept"}},
       /* geometric stiffening */
       {"loads over the buckling load of a hinged member",
-       {kLarge, "there are no loads", "large displacement includes it", kLarge}},
+       {kLarge, "there are no loads", "the effect large-displacement includes it", kLarge}},
       /* large displacement */
       {"", {kLarge, "modes describe small motions only", "", kLarge}},
   }};

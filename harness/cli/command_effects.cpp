@@ -161,7 +161,7 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
   }
   if (options.words.empty())
     cases = effect_cases(options.labels, options.variant.empty() ? kBaseVariant : options.variant);
-  if (cases.empty()) throw InputError("no case with these labels supports effects");
+  if (cases.empty()) throw InputError("no case with these labels has effects to select");
   return cases;
 }
 

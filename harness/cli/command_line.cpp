@@ -96,7 +96,7 @@ const std::vector<Option>& all_options() {
       {"sides", &Options::words,
        "case, case:variant, results.json, or a folder that contains results.json"},
       {"what", &Options::words,
-       "Families or studies of the catalogue, cases, or files of either; default: every study"},
+       "Families, studies or cases of the catalogue, or their files; default: every study"},
       {"results", &Options::word,
        "results.json file, or its folder, with the values or verdicts to use"},
       {"shards", &Options::words, "Folders written by 'trammel run --shard'"},

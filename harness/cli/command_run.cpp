@@ -218,7 +218,7 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
     // limits the length of its path.
     std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
     if (mkdtemp(profile.data()) == nullptr)
-      throw InputError(profile + ": no folder for Chromium can be created");
+      throw InputError(profile + ": cannot create a folder for Chromium");
     const ProcessOutcome outcome =
         run_limited({require_program("--pdf"), "--headless", "--no-sandbox", "--disable-gpu",
                      "--no-pdf-header-footer", "--user-data-dir=" + profile,

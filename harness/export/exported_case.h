@@ -60,8 +60,8 @@ void write_system_matrices(const Document& document, const ExportedScene& scene,
                            const std::filesystem::path& folder);
 
 /// Converts a built model into the format of a case file in which all values are explicit. Every
-/// node has a name and sections are numbers. Tapered members become chains of uniform members, and
-/// edge loads become nodal loads.
+/// node has a name, and every section is given by numbers. Tapered members become chains of uniform
+/// members, and edge loads become nodal loads.
 
 /// Names of materials and loads in the case, which a built model does not contain.
 struct WrittenNames {

@@ -134,7 +134,7 @@ std::vector<std::string> Case::variants() const {
 }
 
 std::string Case::variant_title(const std::string& variant) const {
-  if (variant == kBaseVariant) return "Case without patches";
+  if (variant == kBaseVariant) return "Base case";
   return document.value().at("variants").at(variant).value("title", variant);
 }
 

@@ -388,7 +388,7 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) {
     if (analysis.has("reduction"))
-      result.outcome.reason += "; component modes may be too few for the loads within members";
+      result.outcome.reason += "; more component modes may be needed for the loads along members";
     return result;
   }
   if (with_forces) warn_of_redundant_constraints(system, result.warnings);

@@ -122,7 +122,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)
     result.warnings.push_back(
-        {"the number of loads that follow their nodes",
+        {"the number of follower loads, which turn with their nodes",
          static_cast<double>(large_motion.follower_loads.size()), "",
          "statics does not detect instability by flutter; 'vibration_modes' does"});
   for (const PathPoint& point : recorded_points) {

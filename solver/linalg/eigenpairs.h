@@ -14,8 +14,9 @@ namespace trammel::solver {
 /// Method of an eigenvalue solver; `automatic` selects by the size of the problem.
 enum class EigenMethod { automatic, dense, sparse };
 
-/// Pencil K x = lambda B x with positive definite K - s B. B is symmetric. It may be semidefinite
-/// (massless coordinates, s <= 0) or indefinite (buckling, s below the first positive eigenvalue).
+/// Pencil K x = lambda B x with symmetric B and a shift s for which K - s B is positive definite. B
+/// is semidefinite if some coordinates have no mass; then s <= 0. In buckling, B may be indefinite,
+/// and s is below the first positive eigenvalue.
 struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;  ///< null: use `B_times` and `count_below`, with s = 0

@@ -210,13 +210,13 @@ BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
 BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
   const AnalysisResult result = turning_to(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),
-                      "before which the path crosses a parallel singularity is 0.75 s"),
+                      "of the first point after a parallel singularity is 0.75 s"),
              result.warnings.back().text());
   BOOST_TEST(!warns(turning_to(0.6), "singularity"));
 }
 
 BOOST_AUTO_TEST_CASE(every_analysis_warns_of_a_crossed_singularity) {
-  const std::string crossed = "before which the path crosses a parallel singularity is 0.75 s";
+  const std::string crossed = "of the first point after a parallel singularity is 0.75 s";
   const Json study = {{"analysis", {{"statics", Json::object()}}},
                       {"trajectory", true},
                       {"quantities", {{"displacement_x_m:P", Json::object()}}}};

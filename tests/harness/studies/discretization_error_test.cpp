@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
 }
 
-// The coarse mesh of four elements has two elements, 1.3 per half wave of the second mode.
+// The mesh of four elements is compared with one of two elements: 1.3 per half wave of mode 2.
 BOOST_AUTO_TEST_CASE(mode_with_few_elements_per_half_wave_has_order_two) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 2}}}};

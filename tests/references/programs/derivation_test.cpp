@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(wrong_length_and_nan_never_agree) {
   BOOST_TEST(!comparison.within_uncertainty());
 }
 
-BOOST_AUTO_TEST_CASE(error_in_a_derivation_has_file_and_pointer) {
+BOOST_AUTO_TEST_CASE(message_names_file_and_pointer_of_derivation) {
   const Json reference = Json::parse(R"({
     "title": "x", "kind": "exact", "unit": "1", "source": "x", "place": "x", "values": [1],
     "uncertainty": {"relative": 0}, "derivation": {

@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
 /// A quasi-static start with damping is a different state than the equilibrium without damping, and
 /// has different velocities. The difference of the strain rates once caused spurious damping forces
 /// at the start.
-BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
+BOOST_AUTO_TEST_CASE(strongly_damped_start_agrees_with_linear_theory) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
   options.wrench = {1e-3, 5e-4, 0};
   options.gyroscopic = true;

@@ -57,7 +57,7 @@ StaticSolution estimate_of(const Vector2d& force) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(estimate_takes_two_tangents_if_small_and_stable) {
+BOOST_AUTO_TEST_CASE(stable_path_with_small_error_uses_two_tangents) {
   const double critical = kPi * kPi / 4;  // P L^2 / EI
   BOOST_TEST(estimate_of({0, 0.1}).counters.factorizations == 2);
   BOOST_TEST(estimate_of({-0.9 * critical, 0}).counters.factorizations == 2);
