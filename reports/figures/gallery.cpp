@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of figures of shapes of a case
 
-/// Plans the figures of a case. The page shows the sketch and three more figures: the first of the
-/// values (compared values, effects, or a request of the case), the motion or the shapes of the
-/// first run that has them, and the first refinement study. Further figures are folded.
+/// Plans the figures of a case. The page shows the sketch and up to three more figures: effects,
+/// the first of the values (compared values, or a request of the case), the motion or the shapes of
+/// the first run that has them, and the first refinement study. Further figures are folded.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
@@ -24,11 +24,11 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
       std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
   if (drawn != runs.end())
     if (auto figure = mechanism_figure(info, **drawn)) gallery.sketch.push_back(*figure);
-  std::vector<Figure> values, shapes, meshes;
+  std::vector<Figure> effects, values, shapes, meshes;
   if (auto figure = agreement_figure(info, results, *runs.front())) values.push_back(*figure);
   std::size_t motions = 0, variants = 0;
   for (const Run* run : runs) {
-    if (auto figure = effects_figure(info, results, *run)) values.push_back(*figure);
+    if (auto figure = effects_figure(info, results, *run)) effects.push_back(*figure);
     if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
       shapes.push_back(*motion);
     std::ranges::move(convergence_figures(info, *run), std::back_inserter(meshes));
@@ -50,9 +50,9 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     else
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
   }
-  for (std::vector<Figure>* figures : {&values, &shapes, &meshes})
+  for (std::vector<Figure>* figures : {&effects, &values, &shapes, &meshes})
     for (Figure& figure : *figures) {
-      const bool is_first = &figure == &figures->front();
+      const bool is_first = &figure == &figures->front() && gallery.shown.size() < 3;
       figure.is_linked = !is_first && figures != &values;
       (is_first ? gallery.shown : gallery.folded).push_back(std::move(figure));
     }

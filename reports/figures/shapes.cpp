@@ -68,8 +68,7 @@ std::string panel_svg(const Drawing& drawing, const Shape& shape, double factor,
                        panel.path(lines, part.empty() ? drawing.nodes : there),
                        part.empty() ? palette::kStructure : palette::color(0), width, style);
     if (swings)
-      out += fmt::format(R"( class="swing" style="animation-name:{};animation-duration:{:.3g}s")",
-                         own, half_period_s);
+      out += fmt::format(R"( class="swing" style="--swing:{} {:.3g}s")", own, half_period_s);
     out += "/>\n";
   };
   draw(triangle_edges(drawing), 0.6, "");

@@ -77,10 +77,7 @@ Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& cur
     keys.push_back(title);
   }
   y.high = std::max(x.high, y.high);
-  if (log) {
-    script.log_axis("x", x.low, x.high);
-    script.log_axis("y", y.low, y.high);
-  }
+  if (log) script.log_axis("x", x.low, x.high), script.log_axis("y", y.low, y.high);
   script.axis_label("x", x_label);
   script.axis_label("y", y_label);
   script.curve({{x.low, x.low}, {x.high, x.high}},

@@ -172,18 +172,17 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
-  return Figure{
-      .id = slug(family + "-tolerance"),
-      .title = largest_only ? "Largest fraction of the tolerance in each case"
-                            : "Fraction of the tolerance used by each check",
-      .caption = "Difference divided by the tolerance, with the limit 1 as a line. " + caption,
-      .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
-      .height = 105 + (largest_only ? 8
-                       : many       ? 28
-                                    : 40) *
-                          static_cast<int>(rows.size()),
-      .commands = script.commands(),
-      .data = std::move(table)};
+  return Figure{.id = slug(family + "-tolerance"),
+                .title = largest_only ? "Largest fraction of the tolerance in each case"
+                                      : "Fraction of the tolerance used by each check",
+                .caption = "Difference over tolerance; the line is the limit. " + caption,
+                .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
+                .height = 105 + (largest_only ? 8
+                                 : many       ? 28
+                                              : 40) *
+                                    static_cast<int>(rows.size()),
+                .commands = script.commands(),
+                .data = std::move(table)};
 }
 
 }  // namespace trammel::reports

@@ -106,7 +106,8 @@ std::string thumbnail_of(const Family& family) {
       for (const Figure& figure : family.galleries.at(info->id).*part) {
         const std::string still = figure.svg.substr(0, figure.svg.find("<style>"));
         const bool is_plot = still.find(" data-axes=") != std::string::npos;
-        if (still.size() <= 5000 && (!is_plot || family.galleries.at(info->id).sketch.empty()))
+        const bool is_small = still.size() <= 5000 || family.cases.size() == 1;
+        if (is_small && (!is_plot || family.galleries.at(info->id).sketch.empty()))
           return still + (still == figure.svg ? "" : "</svg>");
       }
   return "";

@@ -17,7 +17,7 @@ namespace {
 /// Roles of checks with their meanings. The last table row is the sum of all roles.
 constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"verification", "against exact or independent reference solutions"},
-    {"validation", "against the published results under examination"},
+    {"validation", "against the published results"},
     {"regression", "against earlier results of this solver"},
     {"all", ""},
 }};

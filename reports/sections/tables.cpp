@@ -154,6 +154,8 @@ Data headlines(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& 
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
     Data group = group_of_worst(*w.check, entry, rows);
     set(group, {{"uncertainty", uncertainty_text(*w.run, *w.check)}});
+    if (!w.check->title.empty())  // the title names the quantity
+      set(group, {{"quantity", axis_label("", display_unit(w.check->unit))}});
     groups.push_back(group);
   }
   return groups;
