@@ -39,7 +39,6 @@ namespace fs = std::filesystem;
 using Termination = ProcessOutcome::Termination;
 using Ended = std::function<void(std::size_t, const ProcessOutcome&)>;
 
-constexpr long kLargeProcess_kB = 500'000;  ///< a worker with more memory ends after its task
 constexpr int kOutOfMemory = 12;  // exit status of a process that could not allocate memory
 /// A process is stopped as hung if its wall time exceeds this factor times its limit of processor
 /// time.
@@ -111,6 +110,7 @@ struct Message {
   std::size_t task = 0;
   std::size_t bytes = std::string::npos;  ///< length of the answer; npos: start
   double wall_s = 0, cpu_s = 0;
+  unsigned cpu_limit_s = 0;
 };
 
 struct Child {
@@ -197,7 +197,7 @@ void put(int out, const void* data, std::size_t bytes) {
   if (kLimitsMemory && memory_bytes > 0) limit(RLIMIT_AS, memory_bytes);
   allowed_bytes = memory_bytes;
   for (std::size_t number = 0; (number = next++) < tasks.size();) {
-    const Message start{number};
+    const Message start{.task = number, .cpu_limit_s = tasks[number].cpu_limit_s};
     put(out, &start, sizeof start);
     const Stopwatch watch;
     const auto used_s = static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC);
@@ -214,7 +214,7 @@ void put(int out, const void* data, std::size_t bytes) {
     }
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
-    if (used.ru_maxrss > kLargeProcess_kB) break;  // frees its memory
+    if (used.ru_maxrss > 500'000) break;  // [kB]; a new worker needs less memory
   }
   _exit(0);
 }
@@ -321,8 +321,7 @@ class ProcessPool {
 
   /// Reads available answers of the workers.
   /// @returns the signal if one was received, else 0
-  int wait(const std::vector<ProcessTask>& tasks, const Ended& ended,
-           const std::function<void()>& waiting) {
+  int wait(const Ended& ended, const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
     for (const Child& child : children_) ready.push_back({child.output, POLLIN, 0});
     const int found = poll(ready.data(), ready.size(), 1000);  // ms
@@ -333,7 +332,7 @@ class ProcessPool {
     for (std::size_t i = children_.size(); i-- > 0;) {
       if (ready[i + 1].revents == 0) continue;
       const bool goes_on = drain(children_[i]);
-      while (take_message(children_[i], tasks, ended)) continue;
+      while (take_message(children_[i], ended)) continue;
       if (goes_on) continue;
       Child child = std::move(children_[i]);
       children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -347,8 +346,7 @@ class ProcessPool {
  private:
   /// Takes the start or the complete answer of a task from the output of a worker.
   /// @returns false if the output contains neither
-  static bool take_message(Child& child, const std::vector<ProcessTask>& tasks,
-                           const Ended& ended) {
+  static bool take_message(Child& child, const Ended& ended) {
     Message head;
     std::string& text = child.text;
     if (text.size() < sizeof head) return false;
@@ -358,7 +356,7 @@ class ProcessPool {
     const std::string answer = starts ? "" : text.substr(sizeof head, head.bytes);
     text.erase(0, sizeof head + answer.size());
     child.task = starts ? std::optional(head.task) : std::nullopt;
-    child.cpu_limit_s = tasks[head.task].cpu_limit_s;
+    child.cpu_limit_s = head.cpu_limit_s;
     if (!starts) ended(head.task, {Termination::answered, answer, 0, head.wall_s, head.cpu_s});
     return true;
   }
@@ -424,7 +422,7 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
         if (pool.size() > 0) break;
         ended(next++, {Termination::not_started, std::strerror(errno)});
       }
-    if (pool.size() > 0) signal = pool.wait(tasks, ended, options.waiting);
+    if (pool.size() > 0) signal = pool.wait(ended, options.waiting);
   }
   munmap(shared, sizeof next);
   return signal;

@@ -29,7 +29,10 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-Catalogue::Catalogue() : Catalogue(data_root() / "cases") {}
+Catalogue::Catalogue() {
+  static const Catalogue installed(data_root() / "cases");
+  files_ = installed.files_;
+}
 
 Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(folder.string())) {
   const std::size_t above = folder.string().size();

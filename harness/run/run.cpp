@@ -6,7 +6,6 @@
 #include <set>
 
 #include "harness/analysis/size_estimate.h"
-#include "harness/base/environment.h"
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
@@ -232,9 +231,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     }
     open.emplace_back(&task, std::move(file));
   }
-  std::error_code error;
-  if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
-  if (!options.store.empty()) remove_unused_files(options.store);
+  if (!options.store.empty()) prepare_store(options.store);
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
     work.push_back(

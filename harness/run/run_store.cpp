@@ -210,8 +210,9 @@ EffectScenes cached_effect_study(const Document& document,
       [](const EffectScenes&) { return true; }, measure);
 }
 
-void remove_unused_files(const std::filesystem::path& store) {
+void prepare_store(const std::filesystem::path& store) {
   std::error_code error;
+  std::filesystem::create_directories(store, error);
   const auto oldest = std::filesystem::file_time_type::clock::now() - std::chrono::days(30);
   for (const auto& entry : std::filesystem::directory_iterator(store, error))
     if (entry.path().extension() == ".cbor" && entry.last_write_time(error) < oldest)
@@ -221,7 +222,8 @@ void remove_unused_files(const std::filesystem::path& store) {
 std::string machine_name() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  return build_and_machine_info()["processor"].get<std::string>() + " of " + host.data();
+  static const std::string processor = build_and_machine_info()["processor"];
+  return processor + " of " + host.data();
 }
 
 }  // namespace trammel::harness

@@ -55,8 +55,8 @@ using EffectScenes = std::vector<results::EffectScene>;
                                                const std::function<EffectScenes()>& measure,
                                                const std::filesystem::path& store, bool resume);
 
-/// Removes the files of the store that no call has written or read for 30 days.
-void remove_unused_files(const std::filesystem::path& store);
+/// Creates the store, and removes its files that no call has written or read for 30 days.
+void prepare_store(const std::filesystem::path& store);
 
 /// Returns processor and host name, which identify the machine on which times are measured.
 [[nodiscard]] std::string machine_name();

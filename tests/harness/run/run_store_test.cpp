@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
         file, std::filesystem::file_time_type::clock::now() - std::chrono::days(31));
   }
   BOOST_TEST(load_stored_run(used, computation));
-  remove_unused_files(folder.path());
+  prepare_store(folder.path());
   BOOST_TEST(!std::filesystem::exists(old));
   BOOST_TEST(std::filesystem::exists(used));
   BOOST_TEST(std::filesystem::exists(other));
