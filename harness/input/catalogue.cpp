@@ -30,8 +30,8 @@ bool is_name(const std::string& text) {
 }  // namespace
 
 Catalogue::Catalogue() {
-  static const Catalogue installed(data_root() / "cases");
-  files_ = installed.files_;
+  static const Catalogue installed_catalogue(data_root() / "cases");
+  files_ = installed_catalogue.files_;
 }
 
 Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(folder.string())) {

@@ -21,7 +21,8 @@ fs::path stored() {
   return data_root() / "references" / "values";
 }
 
-/// Returns references.json next to a user's case; empty for cases of the catalogue.
+/// Returns the path of references.json next to a user's case. The path is empty for cases of the
+/// catalogue.
 std::string own_file(const fs::path& case_file) {
   const fs::path folder = fs::absolute(case_file).parent_path();
   if (is_in_catalogue(folder) || case_file.filename() == kOwnFile) return {};

@@ -99,8 +99,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// Returns U^T K U for the columns of U (u x k), which is twice the strain energies [J].
 [[nodiscard]] Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U);
 
-/// Returns the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T C |B| |u|
-/// over all elements, with the deformations d = B u.
+/// Returns a bound of the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T
+/// C |B| |u| over all elements, with the deformations d = B u.
 [[nodiscard]] double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|

@@ -21,8 +21,8 @@ struct Factor {
 };
 
 /// Visits the intervals between all sample times and load times in ascending order. Calls `sample`
-/// with (index of the sample, factors after it), and `advance` with (length of the interval [s],
-/// its factors).
+/// with (index of the sample, load factors of the interval that follows), and `advance` with
+/// (length of the interval [s], load factors of the interval).
 template <class Sample, class Advance>
 void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, const Sample& sample,
           const Advance& advance) {

@@ -10,7 +10,7 @@
 /// Small motion relative to axes that rotate with a prescribed speed Omega(t).
 namespace trammel::solver {
 
-/// Prescribed rotation of the axes.
+/// Prescribed rotation of the axes in which small motions are described.
 struct PrescribedRotation {
   /// Function that returns the angular speed Omega of the axes [rad/s] and its time derivative
   /// [rad/s^2], counterclockwise.
