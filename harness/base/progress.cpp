@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -13,7 +12,7 @@ Progress::Progress(std::string items)
     : items_(std::move(items)), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (bar_shown_) std::fputs("\r\033[K", stderr);
+  if (line_shown_) std::fputs("\r\033[K", stderr);
 }
 
 void Progress::show(std::size_t done, std::size_t all) {
@@ -22,18 +21,10 @@ void Progress::show(std::size_t done, std::size_t all) {
   if (!each_time && now - last_shown_ < std::chrono::seconds(5)) return;
   last_shown_ = now;
   const std::chrono::duration<double> spent = now - start_;
-  std::string bar = "trammel:";
-  if (terminal_ && all > 0) {
-    constexpr std::size_t width = 40;
-    const std::size_t filled = std::min(width, width * done / all);
-    bar = "\r[" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
-  } else if (terminal_) {
-    bar = "\rtrammel:";
-  }
-  bar_shown_ = terminal_;
+  line_shown_ = terminal_;
   const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: unknown
-  std::fprintf(stderr, "%s %zu%s %s, %.0f s%s", bar.c_str(), done, of_all.c_str(), items_.c_str(),
-               spent.count(), terminal_ ? "\033[K" : "\n");
+  std::fprintf(stderr, "%strammel: %zu%s %s, %.0f s%s", terminal_ ? "\r" : "", done, of_all.c_str(),
+               items_.c_str(), spent.count(), terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);
 }
 

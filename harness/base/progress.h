@@ -6,8 +6,8 @@
 
 namespace trammel::harness {
 
-/// Progress on standard error: a bar on a terminal, lines in a log. A log is updated at most every
-/// five seconds, and so is a terminal if there is a single item or the total is unknown.
+/// Progress on standard error: one line on a terminal, several lines in a log. A log is updated at
+/// most every five seconds, and so is a terminal if there is a single item or the total is unknown.
 class Progress {
  public:
   /// @param items  name of the counted items, in the plural: "runs"
@@ -20,7 +20,7 @@ class Progress {
 
  private:
   std::string items_;
-  bool terminal_, bar_shown_ = false;
+  bool terminal_, line_shown_ = false;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_shown_ = start_;
 };

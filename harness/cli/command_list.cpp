@@ -23,6 +23,7 @@
 #include "harness/run/run.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/rethrow_as_input.h"
+#include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
 namespace {
@@ -255,6 +256,14 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   const References references;
   describe_sweeps(given);
   describe_effects(document);
+  if (document.value().contains("uncertainty")) {
+    std::cout << "\nInput uncertainties\n";
+    for (const results::UncertainInput& input : uncertain_inputs(document, references))
+      std::cout << wrapped(
+          input.name + " +- " + shortest_decimal(*input.half_width) +
+              (input.nominal ? ", if nominal lengths are taken literally: " : ": ") + input.why,
+          "  ");
+  }
   describe_checks(document, read_checks(document, variant, given.variants()), references);
   const auto used = references.requested_references();
   if (!used.empty()) std::cout << "\nReferences\n";
