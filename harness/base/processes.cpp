@@ -315,8 +315,9 @@ class ProcessPool {
       close(signals_);
       work_on(tasks, next, memory_bytes, out);
     });
-    if (child.process >= 0) children_.push_back(std::move(child));
-    return child.process >= 0;
+    if (child.process < 0) return false;
+    children_.push_back(std::move(child));
+    return true;
   }
 
   /// Reads available answers of the workers.

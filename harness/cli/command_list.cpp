@@ -259,10 +259,8 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   if (document.value().contains("uncertainty")) {
     std::cout << "\nInput uncertainties\n";
     for (const results::UncertainInput& input : uncertain_inputs(document, references))
-      std::cout << wrapped(
-          input.name + " +- " + shortest_decimal(*input.half_width) +
-              (input.nominal ? ", if nominal lengths are taken literally: " : ": ") + input.why,
-          "  ");
+      std::cout << wrapped(fmt::format("{} +- {}: {}", input.name, *input.half_width, input.why),
+                           "  ");
   }
   describe_checks(document, read_checks(document, variant, given.variants()), references);
   const auto used = references.requested_references();

@@ -9,8 +9,8 @@
 
 namespace trammel::harness {
 
-/// Catalogue of all case files below a folder. The folder is searched once, on construction; that of
-/// the installation is searched once for all objects.
+/// Catalogue of all case files below a folder. The folder is searched once, on construction; that
+/// of the installation is searched once for all objects.
 class Catalogue {
  public:
   /// Lists the case files of the installation.

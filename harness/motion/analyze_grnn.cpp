@@ -126,7 +126,7 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   const Eigen::RowVector3d start = outputs.row(0).head<3>();
   solver::Index k = 0;
   path.outcome =
-      integrate_with_tracking(case_model, system, options, [&](const solver::large_motion::State& now) {
+      integrate_tracked(case_model, system, options, [&](const solver::large_motion::State& now) {
         const bool on_time =
             k < outputs.rows() &&
             std::abs(now.t - case_model.motion[solver::to_size(k)].time) < options.step / 2;

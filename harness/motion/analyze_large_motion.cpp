@@ -190,7 +190,7 @@ solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::TransientOptions& options, bool extrapolated,
     const solver::large_motion::Observer& look) {
-  if (tracking) return integrate_with_tracking(case_model, system, options, look);
+  if (tracking) return integrate_tracked(case_model, system, options, look);
   State state;
   return extrapolated ? integrate_extrapolated(system, state, options, look)
                       : integrate(system, state, options, look);

@@ -108,7 +108,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     model.supports[solver::to_size(torque.node)].fixed[2] = false;
 }
 
-solver::large_motion::IntegrationSummary integrate_with_tracking(
+solver::large_motion::IntegrationSummary integrate_tracked(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
     const solver::TransientOptions& options, const solver::large_motion::Observer& observe) {
   solver::large_motion::State state = system.reference_state();

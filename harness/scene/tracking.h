@@ -35,7 +35,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
                               solver::Model& model);
 
 /// Integrates the motion from the model's pose, with the initial velocities of the rigid twin.
-[[nodiscard]] solver::large_motion::IntegrationSummary integrate_with_tracking(
+[[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracked(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
     const solver::TransientOptions& options, const solver::large_motion::Observer& observe);
 

@@ -166,13 +166,15 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   for (const double f : hertz) slowest = f > kRigid * fastest ? std::min(slowest, f) : slowest;
   const double slowed = std::max(2 * slowest, 0.25 * fastest);  // to 0.5 Hz, but at most 4 Hz
   std::string svg, motion;
-  for (std::size_t s = 0; s < n; ++s)
+  for (std::size_t s = 0; s < n; ++s) {
+    const std::size_t row = s / columns;
     svg += panel_svg(drawing, drawing.shapes[s], factors[s],
                      slowed > 0 && hertz[s] > kRigid * fastest ? 0.5 * slowed / hertz[s] : 0,
                      info.id + "-" + run.variant + "-" + std::to_string(s), n,
                      {box, cell * static_cast<double>(s % columns) + 0.5 * (cell - width),
-                      high * static_cast<double>(s / columns) + kHeadline, width},
+                      high * static_cast<double>(row) + kHeadline, width},
                      motion);
+  }
 
   const bool modes = drawing.shapes.front().label.starts_with("mode");
   std::string labels;

@@ -76,9 +76,9 @@ struct PlatformDesignOf {
   bool six_nodes = false;  ///< true: a platform of triangles has six nodes per triangle
   /// Radius of the pins at P and C_i, for a platform that is a mesh of triangles [m]. If it is
   /// positive, P and C_i are not nodes of the mesh. The displacement of a pin is a weighted mean of
-  /// the displacements of the nodes within this radius (`pin_weights`). The response to a force on a
-  /// pin therefore converges under mesh refinement. A pin at C_i may contain at most 500 mesh nodes,
-  /// because its link couples all of them.
+  /// the displacements of the nodes within this radius (`pin_weights`). The response to a force on
+  /// a pin therefore converges under mesh refinement. A pin at C_i may contain at most 500 mesh
+  /// nodes, because its link couples all of them.
   double pin_radius = 0;
   /// Given mass of the platform (a value printed in a paper) [kg], which replaces the density. If
   /// empty, the mass follows from the density.

@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   BOOST_TEST(shows("<strong>" + std::to_string(pass) + "</strong> passes"));
   BOOST_TEST(shows("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
   BOOST_TEST(shows("<strong>1</strong> not judged"));
-  BOOST_TEST(shows("1 check fails, 1 check could not be evaluated, 1 run did not end as expected."));
+  BOOST_TEST(
+      shows("1 check fails, 1 check could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
   BOOST_TEST(shows("/model/nodes/B: a member of length 0"));
   // The case expects a run that ends as singular. The page shows the check of this status like
