@@ -29,8 +29,8 @@ struct Figure {
 /// Returns whether gnuplot is installed.
 [[nodiscard]] bool has_gnuplot();
 
-/// Draws the figures without a drawing with one gnuplot process. Sets `svg`, and writes <id>.svg
-/// and <id>.csv for each figure into `folder`.
+/// Draws the figures that have no drawing yet with two gnuplot processes. Sets `svg`, and writes
+/// <id>.svg and <id>.csv for each figure into `folder`.
 /// @param cache   folder of earlier drawings, which are reused if unchanged; empty: no reuse
 /// @param program  version of this program; drawings of other versions are not reused
 /// @throws std::runtime_error  if a figure cannot be drawn or written.
