@@ -24,7 +24,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
-#include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -49,7 +49,7 @@ constexpr unsigned kHangTimeoutFactor = 20;
 #endif
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
     __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of addresses
+constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of address space
 #else
 constexpr bool kLimitsMemory = true;
 #endif
@@ -68,7 +68,7 @@ std::atomic<bool> found_no_memory{false};
   } catch (const std::bad_alloc&) {
     std::fputs(line_without_memory, stderr);
     _exit(status_without_memory);
-  } catch (...) {  // `otherwise` reports all other errors
+  } catch (...) {  // the terminate handler `otherwise` reports all other errors
   }
   otherwise();
   std::abort();
@@ -105,27 +105,36 @@ void limit(__rlimit_resource resource, std::size_t most) {
   _exit(127);
 }
 
-/// Message in the pipe from a worker: the start of a task, or its answer, whose text follows.
-struct Message {
-  std::size_t task = 0;
-  std::size_t bytes = std::string::npos;  ///< length of the answer; npos: start
+/// Id of the process that runs each task, in memory shared with the workers; 0: the task has not
+/// started; -1: the task has ended.
+using Owners = std::span<std::atomic<pid_t>>;
+
+/// Assigns the first task that has not started to this process.
+/// @returns the index of the task; the number of tasks if all tasks have started
+std::size_t take_task(Owners owners) {
+  for (std::size_t task = 0; task < owners.size(); ++task)
+    if (pid_t nobody = 0; owners[task].compare_exchange_strong(nobody, getpid())) return task;
+  return owners.size();
+}
+
+/// Header of an answer that a worker writes into its pipe. The text of the answer follows.
+struct Answer {
+  std::size_t task = 0, bytes = 0;
   double wall_s = 0, cpu_s = 0;
-  unsigned cpu_limit_s = 0;
 };
 
 struct Child {
   pid_t process = -1;
   int output = -1;                             ///< read end of the pipe from the child
-  std::optional<std::size_t> task = {};        ///< task that a worker has started and not answered
-  unsigned cpu_limit_s = 0;                    ///< limit of this task
-  std::size_t kept_bytes = std::string::npos;  ///< length of the tail of the output that is kept
+  std::size_t kept_bytes = std::string::npos;  ///< maximum length of `text`; its end is kept
   std::string text = {};
   Stopwatch watch = {};
 };
 
 /// Forks a child process that is killed when this process ends.
-/// @param run  called in the child with the write end of the pipe; it does not return.
-/// @returns the child; without a process if the fork failed, for the reason in errno
+/// @param run  function that the child calls with the write end of the pipe; the function does not
+///   return
+/// @returns the child. If the fork failed, `process` is -1 and errno contains the reason
 Child start_child(const std::function<void(int out)>& run) {
   Child child;
   std::array<int, 2> ends{};
@@ -151,7 +160,7 @@ Child start_child(const std::function<void(int out)>& run) {
 /// Reads available output of a child process.
 /// @returns true if more output may follow
 bool drain(Child& child) {
-  std::array<char, 65536> buffer;  // not initialized: zeros would cost more than most answers
+  std::array<char, 65536> buffer;  // not initialized, because zeroing is slow
   const ssize_t n = read(child.output, buffer.data(), buffer.size());
   if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
   if (child.text.size() > child.kept_bytes)
@@ -185,10 +194,9 @@ void put(int out, const void* data, std::size_t bytes) {
   }
 }
 
-/// Runs tasks in a child process until none is left. The parent process handles signals that stop
-/// the program.
-/// @param next  number of the next task that no worker has started, shared by all workers
-[[noreturn]] void work_on(const std::vector<ProcessTask>& tasks, std::atomic<std::size_t>& next,
+/// Runs tasks in this child process until all tasks have started or the process has used much
+/// memory. The parent process handles signals that stop the program.
+[[noreturn]] void work_on(const std::vector<ProcessTask>& tasks, Owners owners,
                           std::size_t memory_bytes, int out) noexcept {
   set_out_of_memory_exit(kOutOfMemory, "");
   // An allocation failure ends the process without an exception. An exception would leave
@@ -196,9 +204,7 @@ void put(int out, const void* data, std::size_t bytes) {
   std::set_new_handler([] { _exit(kOutOfMemory); });
   if (kLimitsMemory && memory_bytes > 0) limit(RLIMIT_AS, memory_bytes);
   allowed_bytes = memory_bytes;
-  for (std::size_t number = 0; (number = next++) < tasks.size();) {
-    const Message start{.task = number, .cpu_limit_s = tasks[number].cpu_limit_s};
-    put(out, &start, sizeof start);
+  for (std::size_t number = 0; (number = take_task(owners)) < tasks.size();) {
     const Stopwatch watch;
     const auto used_s = static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC);
     const rlimit cpu{used_s + tasks[number].cpu_limit_s + 1, RLIM_INFINITY};
@@ -206,7 +212,7 @@ void put(int out, const void* data, std::size_t bytes) {
     alarm(kHangTimeoutFactor * tasks[number].cpu_limit_s);
     try {
       const std::string text = tasks[number].work();
-      const Message answer{number, text.size(), watch.wall_s(), watch.cpu_s()};
+      const Answer answer{number, text.size(), watch.wall_s(), watch.cpu_s()};
       put(out, &answer, sizeof answer);
       put(out, text.data(), text.size());
     } catch (const std::bad_alloc&) {
@@ -219,31 +225,28 @@ void put(int out, const void* data, std::size_t bytes) {
   _exit(0);
 }
 
-/// Waits for the end of a process that runs a function and has closed its pipe.
-ProcessOutcome outcome_of(Child& child) {
-  ProcessOutcome outcome = reap(child);
+/// Returns the outcome of a task whose worker ended without an answer, with the reason.
+/// @param outcome  exit status or signal of the worker, and its computing times
+ProcessOutcome unanswered(ProcessOutcome outcome, unsigned cpu_limit_s) {
   const int status = outcome.status;
-  const auto without_answer = [&](Termination termination, const std::string& reason) {
+  const auto because = [&](Termination termination, const std::string& reason) {
     outcome.termination = termination;
     outcome.text = reason;
     return outcome;
   };
-  if (outcome.termination == Termination::answered) {
-    outcome.text = std::move(child.text);
-    if (status == 0) return outcome;
-    if (status == kOutOfMemory)
-      return without_answer(Termination::out_of_memory, "the available memory is exhausted");
-    return without_answer(Termination::crashed,
-                          fmt::format("the computation ended with status {}", status));
-  }
+  if (outcome.termination == Termination::answered && status == kOutOfMemory)
+    return because(Termination::out_of_memory, "the available memory is exhausted");
+  if (outcome.termination == Termination::answered)
+    return because(Termination::crashed,
+                   fmt::format("the computation ended with status {}", status));
   if (status == SIGXCPU || status == SIGALRM)
-    return without_answer(Termination::timed_out,
-                          fmt::format("stopped after {} s of processor time", child.cpu_limit_s));
+    return because(Termination::timed_out,
+                   fmt::format("stopped after {} s of processor time", cpu_limit_s));
   if (status == SIGKILL)
-    return without_answer(Termination::out_of_memory,
-                          "killed by another process, possibly because memory was exhausted");
-  return without_answer(Termination::crashed, fmt::format("the computation crashed (signal {}, {})",
-                                                          status, strsignal(status)));
+    return because(Termination::out_of_memory,
+                   "killed by another process, possibly because memory was exhausted");
+  return because(Termination::crashed,
+                 fmt::format("the computation crashed (signal {}, {})", status, strsignal(status)));
 }
 
 /// Waits until a program ends or exceeds a limit.
@@ -270,18 +273,8 @@ Termination await(Child& child, const fs::path& folder, const ProgramLimits& lim
   return termination;
 }
 
-pid_t parent_of(const fs::path& process) {
-  std::string text;
-  std::getline(std::ifstream(process / "stat"), text);
-  const auto name_end = text.rfind(')');  // process names may contain ')'
-  int parent = 0;
-  if (name_end != std::string::npos)
-    (void)std::sscanf(text.c_str() + name_end + 1, " %*c %d", &parent);
-  return parent;
-}
-
-/// Pool of running child processes. While it exists, SIGINT and SIGTERM do not end the program;
-/// `wait` returns them.
+/// Pool of running child processes. While the pool exists, SIGINT and SIGTERM do not end the
+/// program. `wait` returns the number of a received signal.
 class ProcessPool {
  public:
   ProcessPool() {
@@ -307,25 +300,25 @@ class ProcessPool {
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  /// Starts a worker. @returns true if it was started; if false, errno contains the reason
-  bool start(const std::vector<ProcessTask>& tasks, std::atomic<std::size_t>& next,
-             std::size_t memory_bytes) {
-    Child child = start_child([&](int out) {  // closes unused file descriptors
+  /// Starts a worker. @returns false if the worker cannot be started; errno contains the reason
+  bool start(const std::vector<ProcessTask>& tasks, Owners owners, std::size_t memory_bytes) {
+    Child child = start_child([&](int out) {  // the child closes unused descriptors
       for (const Child& other : children_) close(other.output);
       close(signals_);
-      work_on(tasks, next, memory_bytes, out);
+      work_on(tasks, owners, memory_bytes, out);
     });
     if (child.process < 0) return false;
     children_.push_back(std::move(child));
     return true;
   }
 
-  /// Reads available answers of the workers.
-  /// @returns the signal if one was received, else 0
-  int wait(const Ended& ended, const std::function<void()>& waiting) {
+  /// Waits up to one second for answers of the workers and reads them.
+  /// @returns SIGINT or SIGTERM if the signal was received, else 0
+  int wait(const std::vector<ProcessTask>& tasks, Owners owners, const Ended& ended,
+           const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
     for (const Child& child : children_) ready.push_back({child.output, POLLIN, 0});
-    const int found = poll(ready.data(), ready.size(), 1000);  // ms
+    const int found = poll(ready.data(), ready.size(), 1000);  // timeout [ms]
     if (found == 0 && waiting) waiting();
     if (found <= 0) return 0;
     if (signalfd_siginfo came{}; ready[0].revents != 0)
@@ -333,32 +326,31 @@ class ProcessPool {
     for (std::size_t i = children_.size(); i-- > 0;) {
       if (ready[i + 1].revents == 0) continue;
       const bool goes_on = drain(children_[i]);
-      while (take_message(children_[i], ended)) continue;
+      while (take_answer(children_[i], ended)) continue;
       if (goes_on) continue;
       Child child = std::move(children_[i]);
       children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
       close(child.output);
-      const ProcessOutcome outcome = outcome_of(child);
-      if (child.task) ended(*child.task, outcome);
+      const ProcessOutcome outcome = reap(child);
+      for (std::size_t task = 0; task < tasks.size(); ++task)
+        if (owners[task] == child.process)
+          ended(task, unanswered(outcome, tasks[task].cpu_limit_s));
     }
     return 0;
   }
 
  private:
-  /// Takes the start or the complete answer of a task from the output of a worker.
-  /// @returns false if the output contains neither
-  static bool take_message(Child& child, const Ended& ended) {
-    Message head;
+  /// Removes the first complete answer from the output of a worker and calls `ended`.
+  /// @returns false if the output contains no complete answer
+  static bool take_answer(Child& child, const Ended& ended) {
+    Answer head;
     std::string& text = child.text;
     if (text.size() < sizeof head) return false;
     std::memcpy(&head, text.data(), sizeof head);
-    const bool starts = head.bytes == std::string::npos;
-    if (!starts && text.size() < sizeof head + head.bytes) return false;
-    const std::string answer = starts ? "" : text.substr(sizeof head, head.bytes);
-    text.erase(0, sizeof head + answer.size());
-    child.task = starts ? std::optional(head.task) : std::nullopt;
-    child.cpu_limit_s = head.cpu_limit_s;
-    if (!starts) ended(head.task, {Termination::answered, answer, 0, head.wall_s, head.cpu_s});
+    if (text.size() < sizeof head + head.bytes) return false;
+    const std::string answer = text.substr(sizeof head, head.bytes);
+    text.erase(0, sizeof head + head.bytes);
+    ended(head.task, {Termination::answered, answer, 0, head.wall_s, head.cpu_s});
     return true;
   }
 
@@ -367,7 +359,7 @@ class ProcessPool {
   int signals_ = -1;
 };
 
-/// Line printed by the signal handler, which may only write and exit.
+/// Line that the signal handler prints. A signal handler may only write and exit.
 std::array<char, 200> last_line{};
 
 extern "C" void print_and_end(int signal) {
@@ -410,22 +402,28 @@ std::size_t memory_limit_bytes() {
 
 int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
                      const std::function<void(std::size_t, const ProcessOutcome&)>& ended) {
-  // The memory of the counter is shared with the workers.
-  void* shared = mmap(nullptr, sizeof(std::atomic<std::size_t>), PROT_READ | PROT_WRITE,
-                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  const std::size_t bytes = (tasks.size() + 1) * sizeof(std::atomic<pid_t>);
+  void* shared = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw std::bad_alloc();
-  auto& next = *new (shared) std::atomic<std::size_t>(0);
+  const Owners owners(static_cast<std::atomic<pid_t>*>(shared), tasks.size());  // mmap sets 0
+  const Ended end = [&](std::size_t task, const ProcessOutcome& outcome) {
+    owners[task] = -1;
+    ended(task, outcome);
+  };
+  const auto any_waits = [&] {
+    return std::ranges::any_of(owners, [](const auto& owner) { return owner == 0; });
+  };
   int signal = 0;
   ProcessPool pool;
-  while (signal == 0 && (next < tasks.size() || pool.size() > 0)) {
-    while (next < tasks.size() && pool.size() < std::max(1U, options.at_once))
-      if (!pool.start(tasks, next, options.memory_bytes)) {
+  while (signal == 0 && (any_waits() || pool.size() > 0)) {
+    while (any_waits() && pool.size() < std::max(1U, options.at_once))
+      if (!pool.start(tasks, owners, options.memory_bytes)) {
         if (pool.size() > 0) break;
-        ended(next++, {Termination::not_started, std::strerror(errno)});
+        end(take_task(owners), {Termination::not_started, std::strerror(errno)});
       }
-    if (pool.size() > 0) signal = pool.wait(ended, options.waiting);
+    if (pool.size() > 0) signal = pool.wait(tasks, owners, end, options.waiting);
   }
-  munmap(shared, sizeof next);
+  munmap(shared, bytes);
   return signal;
 }
 
@@ -442,13 +440,11 @@ void adopt_descendants() {
 }
 
 void kill_descendants() {
+  const std::string children = "/proc/self/task/" + std::to_string(getpid()) + "/children";
   for (bool found = true; found;) {
     found = false;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/proc", error)) {
-      const int process = std::atoi(entry.path().filename().c_str());
-      if (process <= 0 || parent_of(entry.path()) != getpid()) continue;
-      found = true;
+    std::ifstream in(children);
+    for (pid_t process = 0; in >> process; found = true) {
       kill(process, SIGKILL);
       waitpid(process, nullptr, 0);
     }
@@ -456,7 +452,7 @@ void kill_descendants() {
 }
 
 std::size_t folder_bytes(const fs::path& folder, std::size_t stop_above) {
-  constexpr std::size_t entry_bytes = 4096;  // limits the number of empty files as well
+  constexpr std::size_t entry_bytes = 4096;  // size counted per entry, so that empty files count
   std::size_t sum = 0;
   std::error_code error;
   for (fs::recursive_directory_iterator
