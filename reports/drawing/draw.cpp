@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gnuplot-iostream.h>
 
 #include <algorithm>
@@ -5,7 +6,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
@@ -107,7 +107,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     // With -d, gnuplot ignores the settings of the user; `timeout` ends it if it hangs.
     const std::string command =
         "timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d";
-    std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // draw at the same time
+    std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // both draw concurrently
     std::size_t number = 0;
     for (const Figure* figure : figures)
       both[number++ % 2]
@@ -134,7 +134,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
 std::string slug(const std::string& text) {
   constexpr std::size_t kMaxLength = 100, kHashLength = 9;
   std::string out;
-  std::uint32_t hash = 2166136261U;  // FNV-1a
+  std::uint32_t hash = 2166136261U;  // FNV-1a hash
   for (const char c : text) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) {
@@ -148,9 +148,7 @@ std::string slug(const std::string& text) {
   while (!out.empty() && out.back() == '-') out.pop_back();
   if (out == text && text.size() <= kMaxLength && !text.empty()) return out;
   out.resize(std::min(out.size(), kMaxLength - kHashLength));
-  std::array<char, kHashLength + 1> suffix{};
-  std::snprintf(suffix.data(), suffix.size(), "-%08x", static_cast<unsigned>(hash));
-  return (out.empty() ? "x" : out) + suffix.data();
+  return (out.empty() ? "x" : out) + fmt::format("-{:08x}", hash);
 }
 
 bool has_gnuplot() {

@@ -74,11 +74,4 @@ std::string with_relative_links(const std::string& html, const std::string& page
   return with_attribute(with_attribute(html, "href", change), "src", change);
 }
 
-std::vector<std::string> link_targets(const std::string& html) {
-  std::vector<std::string> targets;
-  const auto collect = [&](const std::string& target) { return targets.emplace_back(target); };
-  (void)with_attribute(with_attribute(html, "href", collect), "src", collect);
-  return targets;
-}
-
 }  // namespace trammel::reports

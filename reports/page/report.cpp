@@ -1,7 +1,12 @@
 #include "reports/page/report.h"
 
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
+#include "harness/base/environment.h"
 #include "harness/results/unfinished_folder.h"
 #include "reports/page/render.h"
 #include "reports/page/site.h"
@@ -13,53 +18,65 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)";
+/// Name of the file that contains the key of a report, and the sizes and paths of its files.
+constexpr const char* kFileList = "report-files.txt";
 
-/// Returns the pages of an earlier report in the folder `out`, and the files to which they link.
-std::vector<fs::path> earlier_files(const fs::path& out) {
-  std::set<fs::path> files, pages = {"index.html"};
-  while (!pages.empty()) {
-    const fs::path page = *pages.begin();
-    pages.erase(pages.begin());
-    if (!fs::is_regular_file(out / page)) continue;
-    const std::string html = read_file(out / page);
-    if (html.find(kGenerator) == std::string::npos) continue;
-    files.insert(page);
-    for (const std::string& target : link_targets(html)) {
-      const std::string name = target.substr(0, target.find('#'));
-      const fs::path file = (page.parent_path() / name).lexically_normal();
-      if (name.empty() || file.is_absolute() || *file.begin() == ".." || files.count(file))
-        continue;
-      if (file.extension() == ".html") {
-        pages.insert(file);
-      } else if (name.find(':') == std::string::npos) {
-        files.insert(file);
-      }
-    }
-  }
-  return {files.begin(), files.end()};
+/// Returns a text that depends on the program and on all results, but not on the date of the call.
+std::string key_of(const Results& results) {
+  auto json = to_json(results, false);
+  for (const char* key : {"date", "stored_runs"}) json["environment"].erase(key);
+  using Handler = decltype(json)::error_handler_t;
+  return harness::content_hash(json.dump(-1, ' ', false, Handler::replace) +
+                               harness::program_hash());
 }
 
-void write_checks(const std::vector<Family>& families, const fs::path& folder) {
-  fs::create_directories(folder);
-  for (const Family& family : families)
-    for (const CaseInfo* info : family.cases)
-      write_file(folder / (slug(info->id) + ".csv"),
-                 to_csv(checks_table(*info, family.runs_of(info->id))));
+/// Reads the list of files of an earlier report.
+/// @param key  becomes the key of the report, or empty if a file is missing or has another size
+std::vector<fs::path> read_list(const fs::path& out, std::string& key) {
+  std::vector<fs::path> files;
+  std::ifstream in(out / kFileList);
+  std::getline(in, key);
+  std::uintmax_t size = 0;
+  std::error_code missing;
+  for (fs::path file; in >> file >> size; files.push_back(file)) {
+    if (file.is_absolute() || *file.lexically_normal().begin() == "..") return {};
+    if (fs::file_size(out / file, missing) != size) key.clear();
+  }
+  return files;
+}
+
+/// Returns the paths and sizes of the files of a report, without the files of the results.
+std::string list_of_files(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder));
+  std::ostringstream list;
+  for (const fs::path& file : files)
+    if (file != "results.json" && file != "junit.xml")
+      list << file << ' ' << fs::file_size(folder / file) << '\n';
+  return list.str();
 }
 
 }  // namespace
 
 fs::path write_report(const Results& results, const fs::path& out) {
   const fs::path part = out / kUnfinishedFolder;
+  const std::string key = key_of(results);
+  std::string earlier_key;
+  const std::vector<fs::path> earlier_files = read_list(out, earlier_key);
   try {
+    const Environment& from = results.environment;
+    if (from.stored_runs > 0 && key == earlier_key) {
+      fs::create_directories(part);
+      replace_files(part, out, kFileList, {});
+      return out / "index.html";
+    }
     std::vector<Family> families = plan_family_figures(results);
     StudyFigures studies = plan_studies(results, families);
     std::vector<Figure*> figures = all_figures(families);
     for (Figure* figure : studies.all()) figures.push_back(figure);
     make_ids_unique(figures);
     // If the results include stored runs, unchanged drawings of the earlier report are reused.
-    const Environment& from = results.environment;
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
          from.trammel + from.commit);
     // A drawing is inlined in the page if the script of the page reads its curves or animates its
@@ -67,12 +84,17 @@ fs::path write_report(const Results& results, const fs::path& out) {
     for (Figure* figure : figures)
       figure->is_linked |=
           figure->moving.empty() && figure->svg.find(" data-axes=") == std::string::npos;
-    write_checks(families, part / "checks");
+    fs::create_directories(part / "checks");
+    for (const Family& family : families)
+      for (const CaseInfo* info : family.cases)
+        write_file(part / "checks" / (slug(info->id) + ".csv"),
+                   to_csv(checks_table(*info, family.runs_of(info->id))));
     for (const SiteFile& file : site_files(results, families, studies)) {
       fs::create_directories((part / file.path).parent_path());
       write_file(part / file.path, file.text);
     }
-    replace_files(part, out, "index.html", earlier_files(out));
+    write_file(part / kFileList, key + "\n" + list_of_files(part));
+    replace_files(part, out, kFileList, earlier_files);
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(part, ignored);

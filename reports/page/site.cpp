@@ -145,7 +145,7 @@ Data titled_by(const Data& section, const char* title) {
   return data;
 }
 
-/// Returns the template `name`, filled in with the data of the section under the same name.
+/// Returns the HTML of the template `name`, filled in with the data `section`.
 std::string body_of(const std::string& name, const Data& section) {
   return render(name + ".mustache", object({{name, section}}));
 }
@@ -158,12 +158,6 @@ std::string sections_body(const Data& index, const std::vector<const char*>& key
       body += render(key + ".mustache",
                      object({{key, *index.get(key)}, {"front", *index.get("front")}}));
   return body;
-}
-
-/// Returns the body of the front page. It has the studies of cost and effects if there are no runs.
-std::string index_body(const Data& index) {
-  const std::string body = render("index.mustache", index);
-  return index.get("has_runs")->is_true() ? body : body + sections_body(index, {"cost", "effects"});
 }
 
 }  // namespace
@@ -203,10 +197,12 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   for (const SectionPage& page : section_pages())
     if (has_content(index, page))
       add(page.path, object({{"heading", page.title}}), sections_body(index, page.keys));
+  const bool has_runs = index.get("has_runs")->is_true();
   add("index.html",
-      object({{"heading", index.get("has_runs")->is_true() ? "Verification and validation report"
-                                                           : "Accuracy and computing time"}}),
-      index_body(index));
+      object({{"heading",
+               has_runs ? "Verification and validation report" : "Accuracy and computing time"}}),
+      render("index.mustache", index) +
+          (has_runs ? "" : sections_body(index, {"cost", "effects"})));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});

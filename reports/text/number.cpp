@@ -1,8 +1,9 @@
 #include "reports/text/number.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <regex>
@@ -11,13 +12,6 @@
 namespace trammel::reports {
 
 namespace {
-
-std::string format(double x, std::chars_format style, int precision) {
-  std::array<char, 400> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, style, precision).ptr;
-  return {buffer.data(), end};
-}
 
 void drop_zeros(std::string& text) {
   if (text.find('.') == std::string::npos) return;
@@ -31,7 +25,7 @@ std::string minus_sign(std::string text) {
 }
 
 std::string scientific(double x, int digits, bool trim) {
-  const std::string text = format(x, std::chars_format::scientific, digits - 1);
+  const std::string text = fmt::format("{:.{}e}", x, digits - 1);
   const std::size_t e = text.find('e');
   std::string mantissa = text.substr(0, e);
   if (trim) drop_zeros(mantissa);
@@ -45,10 +39,10 @@ std::string written(double x, int digits, bool trim) {
   if (!std::isfinite(x)) return std::isnan(x) ? "not a number" : (x > 0 ? "∞" : "\u2212∞");
   if (x == 0) return "0";
   // Rounding can change the decimal exponent: 9.9996 with four digits is 10.00.
-  const std::string rounded = format(x, std::chars_format::scientific, digits - 1);
+  const std::string rounded = fmt::format("{:.{}e}", x, digits - 1);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
   if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);
-  std::string text = format(x, std::chars_format::fixed, std::max(0, digits - 1 - exponent));
+  std::string text = fmt::format("{:.{}f}", x, std::max(0, digits - 1 - exponent));
   if (trim) drop_zeros(text);
   return minus_sign(text);
 }
@@ -84,7 +78,7 @@ int distinguishing_digits(double a, double b) {
 }
 
 std::string shortest_decimal(double x, int digits) {
-  return format(x, std::chars_format::general, digits);
+  return fmt::format("{:.{}g}", x, digits);
 }
 
 std::string power_of_ten(int exponent) {

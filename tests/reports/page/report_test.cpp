@@ -179,8 +179,8 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
       shows("1 check fails, 1 check could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
   BOOST_TEST(shows("/model/nodes/B: a member of length 0"));
-  // The case expects a run that ends as singular. The page shows the check of this status like
-  // other checks.
+  // The case expects a run that ends with the status singular. The page shows the check of this
+  // status like any other check.
   BOOST_TEST(shows("A free frame has no stiffness"));
   BOOST_TEST(shows("<td class=\"number\">singular</td>"));
 }
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
   Check known = results.runs[0].checks[0];
   known.name = "printed";
   known.role = "validation";
-  known.reference = "table-1-link-mass";  // a reference of the paper
+  known.reference = "table-1-link-mass";  // a number printed in the paper
   known.expectation = Expectation::known_discrepancy;
   known.tolerance = Tolerance{0.004, 0.006};
   results.runs[0].checks = {results.runs[0].checks[0], known};
@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(audit_counts_other_discrepancies_by_reason) {
     known.why = repeated ? "second reason" : "first reason";
     results.runs[0].checks.push_back(known);
   }
-  const std::string text = all_pages_of(results);  // the table has the ten largest discrepancies
+  const std::string text = all_pages_of(results);  // the page lists the ten largest discrepancies
   for (const char* part : {"<strong>3</strong> first reason", "<strong>1</strong> second reason"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
 }
@@ -339,9 +339,16 @@ BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
   const fs::path drawing = fs::directory_iterator(workspace.path() / "figures")->path().string();
   const fs::path svg = fs::path(drawing).replace_extension(".svg");
   const std::string drawn = read_text_file(svg), commit = results.environment.commit;
+  const fs::path page = workspace.path() / "index.html";
+  const std::string before = read_text_file(page);
+  results.environment.date = "2026-11-30T00:00:00Z";
   {
     const WithoutGnuplot without;
     write_report(results, workspace.path());
+    BOOST_TEST(read_text_file(page) == before);  // all files are unchanged
+    fs::remove(workspace.path() / "style.css");
+    write_report(results, workspace.path());
+    BOOST_TEST(read_text_file(page) != before);  // a file was missing
     BOOST_TEST(read_text_file(svg) == drawn);
     results.environment.commit = "another";
     BOOST_CHECK_THROW(write_report(results, workspace.path()), std::runtime_error);
