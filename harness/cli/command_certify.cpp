@@ -39,9 +39,7 @@ std::vector<Configuration> computed(const std::vector<Case>& cases, const Comman
   const References references;
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
-    RunOptions options;
-    options.jobs = given.jobs;
-    options.memory_bytes = given.memory_bytes;
+    const RunOptions options{.jobs = given.jobs, .memory_bytes = given.memory_bytes};
     set_solver_rounding(mode);
     const std::vector<Run> runs =
         run_with_progress(cases, references, options, std::string("runs rounded ") + name);

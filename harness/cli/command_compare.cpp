@@ -29,14 +29,12 @@ using results::SideComparison;
 /// Table heading of estimated discretization errors.
 constexpr const char* kErrorHead = "+- [%]";
 
-/// Computes one variant of a case, without its mesh refinements.
+/// Computes one variant of a case, without the refinement sweeps of the case.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;
-  RunOptions options;
-  options.variant = variant;
-  options.memory_bytes = memory_limit_bytes();
-  options.studies = false;
-  const std::vector<Run> runs = run_with_progress({given}, references, options);
+  const std::vector<Run> runs = run_with_progress(
+      {given}, references,
+      {.variant = variant, .memory_bytes = memory_limit_bytes(), .studies = false});
   require_solved(runs.front());
   return {given.id() + ":" + variant, collect_results(runs, {given}, references),
           patched(given, variant)};
@@ -72,8 +70,8 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Returns the results to be compared (sides): those of results files, each read once, or of
-/// computed cases.
+/// Returns the results to be compared (sides): contents of results files, each read once, or
+/// results of cases that are computed.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
@@ -87,7 +85,7 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   }
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
-    (void)load_named_case(split_case_name(others.front()).first);  // throws if this is no case
+    (void)load_named_case(split_case_name(others.front()).first);  // throws if no such case exists
     throw InputError("expected either cases or results files (got both)");
   }
   if (sides.size() < 2) throw InputError("expected at least two results files (got one)");
@@ -106,7 +104,7 @@ void print_sides(const SideComparison& comparison) {
     columns.insert(columns.end(), {{"median_error", "error [%]", 3, 100},
                                    {"largest_error", "largest [%]", 3, 100}});
   Rows(columns, to_json(comparison)["sides"]).print(std::cout);
-  if (errors) std::cout << "error: relative to references, median over all of them\n";
+  if (errors) std::cout << "error: deviation from references; median over all references\n";
 }
 
 /// Returns the discretization error of a value [%], or null without an estimate.

@@ -96,9 +96,9 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
     return status;
   }
   print_numerical_uncertainty(results);
-  std::cout << "error: relative to the exact value, else to the extrapolated one; GCI: grid\n"
+  std::cout << "error: relative to the exact value, else to the extrapolated value; GCI: grid\n"
                "convergence index with Roache's safety factor, 1.25 if the order is near "
-               "theory, else 3\n";
+               "the theoretical order, else 3\n";
   return status;
 }
 

@@ -174,7 +174,7 @@ fs::path store_folder(const std::string& out, const std::string& store) {
 }
 
 int cost_command(const CommandOptions& options, const Renderers& renderers) {
-  constexpr int kLeastRepeats = 7;  // odd and even repeats are compared
+  constexpr int kLeastRepeats = 7;  // because odd and even repeats are compared
   if (options.repeats < kLeastRepeats)
     throw InputError("trammel: --repeats requires at least 7 measurements (got " +
                      std::to_string(options.repeats) + ")");

@@ -53,11 +53,11 @@ Rows own_contributions(const EffectStudy& study) {
   for (const EffectRun& run : study.without_one) add_run(rows, run, study.full);
   EffectRun chosen = study.chosen;
   chosen.left_out = study.full.effects.without(chosen.effects);
-  add_run(rows, chosen, study.full);
+  if (!chosen.left_out.empty()) add_run(rows, chosen, study.full);
   return rows;
 }
 
-/// Columns of a table of the effects selected in each case. The keys are those of
+/// Columns of a table of the effects selected in each case. The keys of the columns are members of
 /// `results::EffectScene`.
 const std::vector<Column> kSceneColumns = {"scene",
                                            "analysis",
@@ -123,7 +123,7 @@ void print_study(const EffectStudy& study) {
             << " of it for the selection\n";
 }
 
-/// Writes results.json and a page with the effects selected in these cases.
+/// Writes results.json and a page with the effects selected in the cases `scenes`.
 void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
                   const Renderers& renderers) {
   results::Results results = collect_results({}, {}, References());
@@ -138,7 +138,7 @@ struct EffectCase {
   Document document;
 };
 
-/// Returns the cases with these labels whose analysis supports a selection of effects.
+/// Returns the cases with all `labels` whose analysis supports a selection of effects.
 std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
                                      const std::string& variant) {
   std::vector<EffectCase> cases;

@@ -13,7 +13,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the quantities requested by the case, or all if it requests none.
+/// Returns the quantities that the case requests; all quantities if the case requests none.
 Json quantities_json(const Case& given, const Quantities& quantities) {
   std::set<std::string> asked;
   if (const auto exported = JsonView(given.document).find("export"))

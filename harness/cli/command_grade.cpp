@@ -39,7 +39,7 @@ void print_grades(const std::vector<results::Run>& runs) {
   std::ranges::move(check_columns(), std::back_inserter(columns));
   Rows table(columns);
   std::map<Grade, std::size_t> counts;
-  std::map<std::string, std::vector<std::string>> reasons;  // runs by reason
+  std::map<std::string, std::vector<std::string>> reasons;  // names of runs by reason
   for (const results::Run& run : runs) {
     const Grade grade = results::grade_of(run);
     ++counts[grade];
@@ -85,14 +85,15 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
                   std::filesystem::absolute(options.out) / "calls",
                   {options.max_time_s, options.memory_bytes, options.max_disk_bytes}};
   std::vector<Case> cases = select_cases(options);
-  // Cases with this label test only the evaluation of checks and do not apply to other codes.
+  // Cases with the label "control" test only the evaluation of checks and do not apply to other
+  // codes.
   if (options.words.empty())
     std::erase_if(cases, [](const Case& given) { return contains(given.labels(), "control"); });
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;
   adopt_descendants();
-  // Ends processes left behind by adapters when the command ends, for any reason.
+  // When the command ends for any reason, kills the processes that adapters have left running.
   const std::shared_ptr<void> guard(nullptr, [](void*) { kill_descendants(); });
   Progress progress("runs");
   RunOptions run_options{options.variant, options.jobs, TrackedQuantities::named, {}};

@@ -40,11 +40,11 @@ void print_history(const Json& history) {
       .print(std::cout);
   const std::string since = "call " + history["since"].dump();
   if (history["since"] == 0) {
-    std::cout << "There is no green call before the newest one.\n";
+    std::cout << "No call before the newest call is free of failures.\n";
   } else if (history["changes"].empty() && history["work"].empty()) {
-    std::cout << "Nothing has changed since " << since << ", the last green one.\n";
+    std::cout << "Nothing has changed since " << since << ", the last without failures.\n";
   }
-  print_changes(history["changes"], "Changed since " + since + ", the last green one:");
+  print_changes(history["changes"], "Changed since " + since + ", the last without failures:");
   print_changes(history["work"], "Counted work changed since " + since + ":");
   if (history["drifts"].empty()) return;
   std::cout << "Slow drifts:\n";

@@ -103,7 +103,7 @@ const std::vector<Option>& all_options() {
       {"adapter", &Options::adapter, "Program; quote it together with its arguments"},
       {"result", &Options::out, "Result file to be written"},
       {"file", &Options::word, "SQLite file of the history"},
-      {"pattern", &Options::word, "Text in the name or title of a case, upper or lower case"},
+      {"pattern", &Options::word, "Text in the name or title of a case (case-insensitive)"},
       {"-L,--label", &Options::labels,
        "Select cases of the catalogue with this label; repeated: with all labels"},
       {"--label-any", &Options::any_labels,
@@ -139,7 +139,7 @@ const std::vector<Option>& all_options() {
        "Also print the summary on one A4 sheet, OUT/summary.pdf, by Chromium"},
       {"--open", &Options::open, "Show the report in the default browser"},
       {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
-      {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
+      {"--gate", &Options::gate, "Exit status 1 if a number differs beyond round-off"},
       {"--sweep", &Options::sweeps, "Use only this sweep of the cases; default: all sweeps"},
       {"--level", &Options::level, "Level of the sweep, counted from 0; default: the case itself",
        within(0, 1000000)},
@@ -165,7 +165,7 @@ const std::vector<Option>& all_options() {
        "displacements and positions are below this value",
        within(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
-       "Quantity to which --accuracy applies instead of these, such as reaction_y_N:A"},
+       "Quantity to which --accuracy applies instead of the default, such as reaction_y_N:A"},
       {"--time-limit", &Options::time_limit_s, "Time limit of the search by --accuracy [s]",
        within(1.0, 1e6)},
       {"--results", &Options::builds, "results.json of the same cases computed by another build"},
@@ -187,7 +187,7 @@ constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--sto
 struct CommandEntry {
   const char* name;
   Command* run;
-  const char* options;  ///< names of options in the order of the help; '!': required
+  const char* options;  ///< names of options in the order of the help; final '!': required
   const char* out = "trammel-results";
 };
 
@@ -251,7 +251,8 @@ class CommandLine {
     const std::string first = arguments.empty() ? "" : arguments.front();
     if (!is_command(first) && !first.starts_with('-'))
       throw InputError("trammel: " + expected_command(first));
-    // CLI11 takes the arguments from the back of the vector and keeps unused arguments in it.
+    // CLI11 takes the arguments from the back of the vector and keeps unused arguments in the
+    // vector.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
       app_.parse(stack);
@@ -346,7 +347,7 @@ void require_gnuplot(const Renderers& renderers) {
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
   exit_on_signals("trammel: interrupted; the same command starts from the beginning\n");
-  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the file size limit then fails
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the size limit then only fails
   try {
     std::vector<std::string> words = arguments;
     if (!words.empty() && words.front() == "help") {
@@ -371,7 +372,7 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::system_error& error) {  // a full disk, or a folder instead of a file
+  } catch (const std::system_error& error) {  // for example, a full disk
     std::cerr << "expected sufficient rights and disk space: " << one_line(error.what()) << '\n';
     return 2;
   } catch (const std::exception& error) {

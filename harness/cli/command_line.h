@@ -33,7 +33,7 @@ struct Renderers {
 inline constexpr const char* kInterrupted =
     "trammel: interrupted; with --resume the same command computes the rest\n";
 
-/// Checks that reports can be drawn, before any work is done.
+/// Requires the tools for drawing reports, before computations start.
 /// @throws InputError  if a report cannot be drawn.
 void require_gnuplot(const Renderers& renderers);
 

@@ -30,6 +30,8 @@
 namespace trammel::harness {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Returns true if the options contain neither cases nor labels.
 bool is_catalogue(const CommandOptions& options) {
   return options.words.empty() && options.labels.empty() && options.any_labels.empty();
@@ -42,7 +44,7 @@ struct Selection {
 };
 
 /// Loads case files. A file that cannot be read becomes a failed run, so that the other cases run.
-Selection load(const std::vector<std::filesystem::path>& files, const Catalogue& catalogue) {
+Selection load(const std::vector<fs::path>& files, const Catalogue& catalogue) {
   Selection selection;
   for (const auto& file : files) {
     try {
@@ -111,7 +113,8 @@ void print_run_errors(const std::vector<Run>& runs) {
       std::cerr << run.reason << '\n';
 }
 
-/// Prints the errors of refused runs if all runs are refused. Earlier results are then kept.
+/// Returns true if all runs were refused because of invalid input, and prints their errors. The
+/// command then leaves earlier results unchanged.
 bool are_refused(const std::vector<Run>& runs) {
   const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
   if (runs.empty() || !std::ranges::all_of(runs, is_refused)) return false;
@@ -129,11 +132,11 @@ void require_no_variant(const std::string& option, const std::string& name) {
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
-  std::vector<std::filesystem::path> files;
-  std::map<std::filesystem::path, std::vector<std::string>> chosen;
+  std::vector<fs::path> files;
+  std::map<fs::path, std::vector<std::string>> chosen;
   for (const std::string& word : options.words) {
     const auto [name, variant] = split_case_name(word);
-    const std::filesystem::path file = catalogue.find_case(name);
+    const fs::path file = catalogue.find_case(name);
     if (!variant.empty()) require_no_variant(options.variant, word);
     if (variant.empty() || !chosen.contains(file)) files.push_back(file);
     if (!variant.empty()) chosen[file].push_back(variant);
@@ -189,8 +192,8 @@ bool is_results_file(const std::string& name) {
   }
 }
 
-/// Returns the path of the first installed program that serves for an option.
-/// @throws InputError  if none is installed
+/// Returns the path of the first installed program that can carry out an option, such as --pdf.
+/// @throws InputError  if no suitable program is installed
 std::string require_program(const std::string& option) {
   static const std::map<std::string, std::vector<std::string>> kPrograms = {
       {"--pdf", {"chromium", "chromium-browser", "google-chrome"}}, {"--open", {"xdg-open"}}};
@@ -206,17 +209,17 @@ void require_programs(const CommandOptions& options) {
 }
 
 /// Prints summary.html as PDF, and shows the report in a browser, if the options request this.
-void present(const CommandOptions& options, const std::filesystem::path& page) {
+void present(const CommandOptions& options, const fs::path& page) {
   std::cout << "report in " << page.string() << std::endl;
-  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
-  const std::filesystem::path sheet = folder / "summary.html", pdf = folder / "summary.pdf";
-  std::filesystem::remove(pdf);  // of an earlier report
+  const fs::path folder = fs::absolute(page).parent_path();
+  const fs::path sheet = folder / "summary.html", pdf = folder / "summary.pdf";
+  fs::remove(pdf);  // summary of an earlier report
   if (options.pdf) {
-    if (!std::filesystem::exists(sheet))
+    if (!fs::exists(sheet))
       throw InputError("--pdf: the report has no summary, because no case was run");
     // The profile of the browser is below the system's folder for temporary files, because Chromium
     // limits the length of its path.
-    std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
+    std::string profile = (fs::temp_directory_path() / "trammel-XXXXXX").string();
     if (mkdtemp(profile.data()) == nullptr)
       throw InputError(profile + ": cannot create a folder for Chromium");
     const ProcessOutcome outcome =
@@ -224,14 +227,13 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
                      "--no-pdf-header-footer", "--user-data-dir=" + profile,
                      "--print-to-pdf=" + pdf.string(), sheet.string()},
                     profile, {});
-    std::filesystem::remove_all(profile);
-    if (!std::filesystem::exists(pdf))
-      throw InputError("--pdf: Chromium failed: " + one_line(outcome.text));
+    fs::remove_all(profile);
+    if (!fs::exists(pdf)) throw InputError("--pdf: Chromium failed: " + one_line(outcome.text));
     std::cout << "summary in " << pdf.string() << std::endl;
   }
   if (options.open && fork() == 0) {
     const std::string program = require_program("--open");
-    setsid();  // the browser may remain open after this program
+    setsid();  // so that the browser may outlive this program
     execl(program.c_str(), program.c_str(), page.c_str(), nullptr);
     _exit(127);
   }
@@ -240,7 +242,7 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
 /// Renders existing results without computing: a single file as a report, several files as a page
 /// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
-  std::vector<std::filesystem::path> files;
+  std::vector<fs::path> files;
   std::ranges::transform(options.words, std::back_inserter(files), results_path);
   if (files.size() > 1)
     for (const auto& file : files)
@@ -251,12 +253,12 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
   if (files.size() == 1) require_gnuplot(renderers);
   require_programs(options);
   const OutputLock lock(options.out);
-  std::filesystem::path page;
+  fs::path page;
   if (files.size() == 1) {
     const results::Results results = load_results(files.front());
     if (!results.missing.empty())
       std::cerr << files.front().string() << ": " << results.missing << '\n';
-    std::filesystem::remove_all(std::filesystem::path(options.out) / results::kUnfinishedFolder);
+    fs::remove_all(fs::path(options.out) / results::kUnfinishedFolder);
     page = renderers.report(results, options.out);
   } else {
     page = renderers.codes(files, options.out);
@@ -271,8 +273,7 @@ Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& word : options.words) {
     const auto [name, variant] = split_case_name(word);
-    const bool is_file = std::filesystem::exists(name);
-    cases.push_back((is_file ? std::filesystem::absolute(name).string() : name) +
+    cases.push_back((fs::exists(name) ? fs::absolute(name).string() : name) +
                     (variant.empty() ? "" : ":" + variant));
   }
   return {{"cases", cases},
@@ -287,7 +288,7 @@ int compute_shard(const CommandOptions& options) {
   const Selection selection = select(options);
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
-  std::filesystem::remove(std::filesystem::path(options.out) / kShardFile);
+  fs::remove(fs::path(options.out) / kShardFile);
   Progress progress("runs");
   const ShardRuns shard_runs = run_shard(selection.cases, run_options(options, progress), shard);
   print_run_errors(shard_runs.runs);
@@ -304,10 +305,15 @@ int compute_shard(const CommandOptions& options) {
 /// @returns the exit status of the studies
 int add_studies(results::Results& results, const std::vector<Case>& cases,
                 const References& references, const CommandOptions& options) {
-  const std::filesystem::path store = store_folder(options.out, options.store);
+  const fs::path store = store_folder(options.out, options.store);
   const bool resume = !options.fresh;
-  std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
-  for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
+  std::vector<std::function<void()>> studies;
+  // An earlier report of the same runs has stored all studies.
+  if (!resume || results.environment.stored_runs < std::ssize(results.runs) ||
+      !fs::exists(fs::path(options.out) / "index.html")) {
+    studies = quick_cost_work(references, store, resume);
+    for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
+  }
   // The calls of `quick_cost_studies` and `catalogue_effect_scenes` below read the results from the
   // store, and compute those that are missing. With --fresh, they read stored results only if all
   // functions in `studies` were completed.
@@ -334,9 +340,8 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
 
 std::pair<std::string, std::string> split_case_name(const std::string& name) {
   const auto colon = name.rfind(':');
-  const bool is_split = colon != std::string::npos && colon > 0 &&
-                        name.find('/', colon) == std::string::npos &&
-                        !std::filesystem::exists(name);
+  const bool is_split = colon != std::string::npos && colon > 0 && colon + 1 < name.size() &&
+                        name.find('/', colon) == std::string::npos && !fs::exists(name);
   return {is_split ? name.substr(0, colon) : name, is_split ? name.substr(colon + 1) : ""};
 }
 
@@ -352,10 +357,10 @@ std::vector<Case> select_cases(const CommandOptions& options) {
   return std::move(selection.cases);
 }
 
-std::filesystem::path write_pages(const results::Results& results, const std::string& out,
-                                  const Renderers& renderers) {
-  const auto unfinished = std::filesystem::path(out) / results::kUnfinishedFolder;
-  std::filesystem::create_directories(unfinished);
+fs::path write_pages(const results::Results& results, const std::string& out,
+                     const Renderers& renderers) {
+  const auto unfinished = fs::path(out) / results::kUnfinishedFolder;
+  fs::create_directories(unfinished);
   write_results(results, unfinished);
   if (!results.runs.empty()) renderers.junit(results, unfinished / "junit.xml");
   return renderers.report(results, out);
@@ -373,7 +378,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   const results::Results results = collect_results(std::move(computed), selection.cases, references,
                                                    store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
-  const std::filesystem::path out = options.out, file = write_results(results, out);
+  const fs::path out = options.out, file = write_results(results, out);
   renderers.junit(results, out / "junit.xml");
   if (options.json) {
     std::cout << read_text(file);
@@ -383,7 +388,9 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
           (!options.quiet || counts_as_failure(run) || !run.warnings.empty()))
         print_run(run, options.no_errors);
     print_summary(results);
-    std::cout << "results in " << file.string() << std::endl;
+    const bool has_pages = fs::exists(out / "index.html");
+    std::cout << "results in " << file.string() << (has_pages ? "; index.html is older\n" : "\n")
+              << std::flush;
   }
   if (options.vtk)
     for (const Run& run : runs) write_vtk(run, out / "vtk");

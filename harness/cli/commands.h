@@ -14,21 +14,22 @@
 #include "harness/results/cost_results.h"
 #include "harness/results/results.h"
 
-/// Commands of the program. Each reads its options, prints its results and returns the exit status.
+/// Commands of the program. Each command reads its options, prints its results and returns the exit
+/// status.
 namespace trammel::harness {
 
 /// Options of a command line. A command ignores options that it does not declare.
 struct CommandOptions {
   std::vector<std::string> words;       ///< positional arguments: cases, files, folders, names
   std::string word;                     ///< single positional argument of commands that have one
-  std::vector<std::string> labels;      ///< labels that a case must all have
+  std::vector<std::string> labels;      ///< labels that each case must have
   std::vector<std::string> any_labels;  ///< labels of which a case must have at least one
   std::string variant;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::string out;    ///< output folder (`export`, `solve`: file); empty: standard output
   std::string store;  ///< folder of stored computations; empty: OUT/store
   bool resume = false, fresh = false;
-  bool any_machine = false;  ///< with --resume, reuse times of other machines
+  bool any_machine = false;  ///< with --resume, reuse times measured elsewhere
   std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
   bool quiet = false;  ///< prints only runs that fail or have warnings, and the summary
@@ -50,7 +51,7 @@ struct CommandOptions {
   double warn_above = 0;  ///< relative discretization error for warnings; 0: default
   double accuracy = 0;    ///< relative error for the search of mesh and step; 0: no search
   std::vector<std::string> quantities;  ///< quantities that the search must make accurate
-  double time_limit_s = 120;            ///< time limit of this search [s]
+  double time_limit_s = 120;            ///< time limit of the search [s]
 
   double tolerance = 0.01;  ///< permitted relative change of the results, for `effects`
 
@@ -61,7 +62,7 @@ struct CommandOptions {
 
   std::string adapter;      ///< for `grade`: the program with its arguments
   double max_time_s = 120;  ///< wall time limit of one call of the adapter
-  std::size_t max_disk_bytes = std::size_t{1} << 30;  ///< limit of the adapter's files
+  std::size_t max_disk_bytes = std::size_t{1} << 30;  ///< limit of the adapter's files [bytes]
   std::size_t shard_count = 0;                        ///< number of shards, for `slurm`
   /// Time limit of a job in the format of sbatch; empty: default of the partition.
   std::string job_time;
@@ -86,8 +87,8 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
 
 /// Returns the case that "CASE:VARIANT" or "CASE" names, and the variant or "".
-/// @param option  variant of the option --variant; empty: none
-/// @throws InputError  if the case cannot be read, or if both name a variant
+/// @param option  value of the option --variant; empty if absent
+/// @throws InputError  if the case cannot be read, or if `name` and `option` both name a variant
 [[nodiscard]] std::pair<Case, std::string> load_case_variant(const std::string& name,
                                                              const std::string& option = "");
 
@@ -102,7 +103,7 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::filesystem::path store_folder(const std::string& out, const std::string& store);
 
 /// Writes results.json, junit.xml (if there are runs) and the pages, completely or not at all.
-/// @returns the first page
+/// @returns the path of the first page
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
                                                 const std::string& out, const Renderers& renderers);
 

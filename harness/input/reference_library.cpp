@@ -42,7 +42,7 @@ std::pair<std::string, std::string> parts_of(const std::string& place) {
 
 InputError not_unique(const std::string& file, const std::string& id, const std::string& other) {
   return {file, "/" + id,
-          "two references have this id; expected a unique id (the other one is in " + other + ")"};
+          "two references have this id; expected a unique id (the id is also in " + other + ")"};
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ const std::vector<references::JsonMember>& References::members(const std::string
   Family& split = family(file);
   if (!split.members) split.members = references::json_members(split.file.text);
   if (!split.members) {
-    (void)read_json(file);  // throws with the line or key of the fault
+    (void)read_json(file);  // throws an error with the line or key
     throw InputError(file, "", "expected an object with one key per reference or source");
   }
   return *split.members;
@@ -109,7 +109,7 @@ std::string References::find_in_catalogue(const std::string& id) const {
     found = file;
   }
   if (found != nullptr && has(*found, id)) return place_of(*found, id);
-  const auto places = catalogue();  // finds references in files of unusual format, too
+  const auto places = catalogue();  // also searches files of unusual format
   const auto place = places.find(id);
   return place == places.end() ? "" : place->second;
 }
@@ -127,7 +127,7 @@ CitedReference References::read(const std::string& place) const {
   try {
     json = parse_json(text, file);
   } catch (const InputError&) {
-    (void)read_json(file);  // throws with the line in the file
+    (void)read_json(file);  // throws an error with the line in the file
     throw;
   }
   if (const auto schema_error = find_schema_fault(json, "reference"))
@@ -165,6 +165,9 @@ std::string References::find(const std::string& name, const std::string& case_fi
   if (!own.empty()) looked_for.push_back(own);
   looked_for.push_back(stored().string());
   for (const auto& item : catalogue()) names.push_back(item.first);
+  if (exists(own))
+    for (const std::string_view key : references::top_level_keys(family(own).file.text))
+      names.emplace_back(key);
   throw id.error("expected the name of a reference (got '" + printable(name) +
                  "', which is not in " + join(looked_for, "or") + ")" + did_you_mean(name, names));
 }

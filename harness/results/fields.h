@@ -56,7 +56,7 @@ struct Field {
   Member Struct::*member;
   Presence presence;
 };
-/// A field with a default value that `usual` computes from the preceding fields.
+/// Field with a default value, which the function `usual` computes from the preceding fields.
 template <class Struct, class Member>
 struct UsualField {
   const char* key;
@@ -64,24 +64,18 @@ struct UsualField {
   Member (*usual)(const Struct& fields_before);
 };
 
-template <class Struct, class Member>
-constexpr Field<Struct, Member> required(const char* key, Member Struct::*member) {
-  return {key, member, Presence::required};
-}
-/// Declares a field that may be absent. Its member is then empty, or the first enumeration value.
-template <class Struct, class Member>
-constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
-  return {key, member, Presence::optional};
-}
-
-template <class Struct, class Member>
-constexpr Field<Struct, Member> not_in_summary(const char* key, Member Struct::*member) {
-  return {key, member, Presence::stored};
-}
-template <class Struct, class Member>
-constexpr Field<Struct, Member> only_in_store(const char* key, Member Struct::*member) {
-  return {key, member, Presence::store_only};
-}
+/// Declares a field with a rule.
+template <Presence presence>
+inline constexpr auto declare =
+    []<class Struct, class Member>(const char* key, Member Struct::*member) {
+      return Field<Struct, Member>{key, member, presence};
+    };
+inline constexpr auto required = declare<Presence::required>;
+/// Declares a field that may be absent from the JSON object. An absent field leaves its member
+/// empty, or sets it to the first enumeration value.
+inline constexpr auto optional = declare<Presence::optional>;
+inline constexpr auto not_in_summary = declare<Presence::stored>;
+inline constexpr auto only_in_store = declare<Presence::store_only>;
 
 /// Declares a field that is omitted if it equals the default computed from the preceding fields.
 template <class Struct, class Member>
@@ -100,7 +94,7 @@ inline constexpr None kNames{};
 #define TRAMMEL_NAMES(Enum, ...) \
   template <>                    \
   inline constexpr std::array kNames<Enum> = {__VA_ARGS__}
-/// Member of a struct that is written as key, if several structs are written as a JSON object
+/// Member of a struct that becomes the JSON key. A list of such structs is written as a JSON object
 /// instead of an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
@@ -151,7 +145,8 @@ using Pair = std::pair<double, double>;
 template <class T>
 inline constexpr bool is_packed =
     std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;
-/// True for a pair of a name and a value, which is written as a member of a JSON object.
+/// True if T is std::pair<std::string, Value>. A list of such pairs is written as a JSON object,
+/// whose keys are the strings.
 template <class T>
 inline constexpr bool is_named = false;
 template <class T>
@@ -216,7 +211,7 @@ template <class T>
 Json object_to_json(const T& value, Form form) {
   Json json = Json::object();
   auto& members = json.template get_ref<Json::object_t&>();
-  // Memory is reserved, because a growing vector copies all members.
+  // Reserves memory, because a growing vector copies all its elements.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
     if (!is_omitted(field, value, form))
@@ -285,7 +280,7 @@ Json list_to_json(const std::vector<Entry>& values, Form form) {
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
-    if constexpr (is_named<Entry>) {  // json[name] would be slow: it compares all previous names
+    if constexpr (is_named<Entry>) {  // json[name] would compare all previous names
       json.template get_ref<Json::object_t&>().emplace_back(entry.first,
                                                             to_json(entry.second, form));
     } else if constexpr (has_key<Entry>) {
@@ -332,7 +327,7 @@ void enum_from_json(const Json& json, const Place& place, Enum& value) {
   value = static_cast<Enum>(name - kNames<Enum>.begin());
 }
 
-/// Reads a pair (x, y), in which null represents a coordinate that is not finite.
+/// Reads a pair (x, y) of coordinates. JSON null represents a coordinate that is not finite.
 inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
   Numbers numbers;
   if (!json.is_array() || json.size() != 2) place.fail("two numbers");

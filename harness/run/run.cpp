@@ -33,8 +33,8 @@ struct Task {
   Document document;
   std::vector<Check> checks;
   bool requested = true;
-  bool studies = true;  ///< compute refinements and validation uncertainty
-  bool errors = false;  ///< estimate discretization errors
+  bool studies = true;  ///< true: compute refinements and validation uncertainty
+  bool errors = false;  ///< true: estimate discretization errors
   std::vector<std::string> input_warnings;
   AccuracyRequest accuracy = {0, {}, 0};  ///< accuracy 0: no search
   Run run;
@@ -78,10 +78,10 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
     task.input_warnings = unit_warnings(task.document);
     task.checks = read_checks(task.document, variant, owner.variants());
   });
-  if (task.run.fault == Fault::input)  // the checks of a faulty variant are errors
+  if (task.run.fault == Fault::input)  // the checks of an invalid variant end with errors
     try {
       task.checks = read_checks(patched(owner, kBaseVariant), variant, owner.variants());
-    } catch (const InputError&) {  // the case has the same fault
+    } catch (const InputError&) {  // the base variant is invalid, too
     }
   return task;
 }
@@ -255,7 +255,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
 }
 
 /// Adds a check of the status of the run, unless the expected and actual status are "solved". If
-/// the case expects another status, the name of the check does not depend on the actual one.
+/// the case expects another status, the name of the check does not depend on the actual status.
 /// @returns whether the computation ended as the case expects
 bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
@@ -417,9 +417,9 @@ ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, c
 
 Run run_variant(const Case& owner, const std::string& variant) {
   Progress progress("runs");
-  RunOptions options;
-  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  options.memory_bytes = memory_limit_bytes();
+  const RunOptions options{
+      .progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); },
+      .memory_bytes = memory_limit_bytes()};
   std::vector<Task> tasks(1, prepare(owner, variant, false));
   if (const int signal = compute_all(tasks, options); signal != 0) throw Interrupted(signal);
   Run& run = tasks.front().run;

@@ -35,19 +35,19 @@ struct Shard {
 };
 
 struct RunOptions {
-  std::string variant;  ///< variant to run; empty: all variants
+  std::string variant = {};  ///< variant to run; empty: all variants
   unsigned jobs = 1;
   TrackedQuantities tracked = TrackedQuantities::named;
   /// Called after each computation and every second, with the number of finished and of all
   /// computations.
-  std::function<void(std::size_t done, std::size_t all)> progress;
+  std::function<void(std::size_t done, std::size_t all)> progress = {};
   std::filesystem::path store = {};  ///< folder of the run store; empty: no store
   bool resume = false;               ///< reuse stored computations
   bool any_machine = false;          ///< also reuse times measured by another machine
   std::size_t memory_bytes = 0;      ///< memory limit of one computation; 0: none
   OtherSolver solver = {};
-  /// True if refinement sweeps and validation uncertainties are computed. May be false only without
-  /// a run store.
+  /// True if refinement sweeps and validation uncertainties are computed. May be false only if
+  /// there is no run store.
   bool studies = true;
   ErrorWish errors = ErrorWish::own_cases;
   /// Relative discretization error of a quantity above which a warning is added to the run.
@@ -56,8 +56,8 @@ struct RunOptions {
   std::vector<std::string> quantities = {};  ///< quantities that require this accuracy
 };
 
-/// Runs the cases, each run in a separate process, and judges them. The numbers do not depend on
-/// `jobs`. A run has the status "error" after bad input, a crash, excessive memory use, or more
+/// Runs the cases, each run in a separate process, and judges the runs. The results do not depend
+/// on `jobs`. A run has the status "error" after bad input, a crash, excessive memory use, or more
 /// processor time than the case's timeout_s. Other runs are not affected. Runs prevented by SIGINT
 /// or SIGTERM have the status "not-run".
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
@@ -74,7 +74,7 @@ struct RunOptions {
 struct ShardRuns {
   std::vector<Run> runs;           ///< runs without verdicts; also in the store
   std::vector<std::string> names;  ///< names of the runs; each run belongs to a single shard
-  std::size_t in_all = 0;          ///< total of all shards
+  std::size_t in_all = 0;          ///< number of computations in all shards
 };
 [[nodiscard]] ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options,
                                   const Shard& shard);

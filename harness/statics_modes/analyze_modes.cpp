@@ -81,7 +81,7 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
   return drawing;
 }
 
-/// Returns the nodal translations of each mode shape as a column of length 1.
+/// Returns the nodal translations of each mode shape as a column of norm 1.
 Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
   const Eigen::MatrixXd u = system.T * shape;
   const auto& nodes = system.coordinates.node;
@@ -122,7 +122,7 @@ class ShapeTracker {
   Eigen::MatrixXd last_;  ///< current shapes (translation x mode of the first point)
 };
 
-/// Returns the shape of a complex mode at the instant when its largest component has its amplitude.
+/// Returns the shape of a complex mode at the instant when its largest component is at its maximum.
 Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   solver::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
@@ -143,8 +143,8 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   return options;
 }
 
-/// Computes modes in a steadily rotating frame (key "rotating") at one speed, or one number per
-/// speed. The outcome is that of the first speed without a steady state.
+/// Computes modes in a steadily rotating frame (key "rotating") at one speed or at several speeds.
+/// The outcome is that of the first speed without a steady state.
 /// @param effects  physical effects of the case, which include or omit Coriolis forces and
 ///   stiffening by tension
 StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
@@ -162,7 +162,7 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
   for (const double speed : speeds) {
     options.frame.speed = speed;
     const solver::RotatingModes found = solver::solve_rotating_modes(system, options);
-    solver::Counters step_counters = found.counters;  // these include the counters of the system
+    solver::Counters step_counters = found.counters;  // they include `system.counters`
     step_counters.element_evaluations = 0;
     for (std::size_t i = 0; i < solver::kEffectCount; ++i)
       step_counters.effects[i] -= system.counters.effects[i];
@@ -208,6 +208,9 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
+  if (const auto count = read_modes_options(analysis).count; modes.frequency.size() < count)
+    add_warning(result.warnings,
+                {"'count'", static_cast<double>(count), "", "the model has fewer modes"});
   warn_of_taper(system.model, result.warnings);
   warn_of_wave_length(system, modes.frequency.maxCoeff(), result.warnings);
   if (analysis.has("count_below_Hz")) {

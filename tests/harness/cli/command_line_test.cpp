@@ -27,7 +27,7 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs trammel in the folder `folder`.
+/// Runs the program trammel with command-line arguments (`words`) in a folder.
 Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
   const std::string line = "cd '" + folder.path().string() + "' && " + before + " '" +
                            testing::trammel_program() + "' " + words +
@@ -72,6 +72,7 @@ const Folder& files() {
                 "tolerance": {"relative": 0.1, "absolute": 1, "why": "x"}}}})"),
           named(holds, "modes", R"({"analysis": {"statics": null, "modes": {"count": 2}}})"),
           named(beam, "frequencies", R"({"analysis": {"statics": null, "modes": {"count": 2}}})"),
+          named(beam, "crowded", R"({"analysis": {"statics": null, "modes": {"count": 99}}})"),
           named(beam, "swept", R"({"analysis": {"statics": null, "modes": {"count": 2}},
                 "sweeps": {"elements": {"pointers": ["/model/elements"],
                            "values": [1, 2, 4, 8, 16, 32], "theory_order": 4}}})"),
@@ -94,6 +95,7 @@ const Folder& files() {
       (void)folder.write(json);
     (void)folder.write("broken.json", "{\"id\": ");
     (void)folder.write("other.json", R"({"a": 1})");
+    (void)folder.write("references.json", R"({"nowhere-near": {}})");
     std::filesystem::create_directories(folder.path() / "blocked/index.html/inside");
     return run(folder, "run holds.json --out results").status == 0;
   }();
@@ -116,6 +118,7 @@ const Refusal kRefusals[] = {
     {"run holds.json --quantity load_factor", "--quantity requires --accuracy"},
     {"help verdict", "effects and accuracy (got 'verdict'); did you mean 'verdicts'?"},
     {"run variants.json:agian", "(got 'agian'); did you mean 'again'?"},
+    {"run variants.json:", "a file that ends in .json (got 'variants.json:')"},
     {"run", "expected a case or label (see trammel run --help)"},
     {"run --nonsense x", "The following argument was not expected: --nonsense"},
     {"run none.json", "none.json: expected a readable file"},
@@ -182,11 +185,12 @@ const std::vector<Call> kCalls = {
     {"run holds.json --quiet >all.txt; grep -c . all.txt", 0, {"2\n"}},
     {"run narrow.json --no-errors", 0, {"displacement_y_m:B ", "[-100.0000001, -99.9999999]"}},
     {"run frequencies.json", 0, {"frequency_Hz"}},
-    {"run modes.json", 1, {"(known here: degrees_of_freedom,"}},
+    {"run modes.json", 1, {"(computed quantities: degrees_of_freedom,"}},
     {"run lost.json",
      2,
-     {"expected the name of a reference", "which is not in", "references/values"},
+     {"which is not in", "references/values; did you mean 'nowhere-near'?"},
      "err"},
+    {"run crowded.json", 0, {"warning: 'count' is 99: the model has fewer modes"}},
     {"run refused.json", 2, {"refused.json: /model/manipulator: "}, "err"},
     {"run drive.json", 2, {": /analysis/large-motion/drives/motor: "}, "err"},
     {"run path.json", 2, {": /analysis/large-motion/end_time_s: "}, "err"},
@@ -226,7 +230,7 @@ BOOST_DATA_TEST_CASE(call_prints_its_results, kCalls, call) {
   const Outcome outcome = run(files(), call.arguments);
   BOOST_TEST(outcome.status == call.status, outcome.err);
   const bool to_err = std::string(call.stream) == "err";
-  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // there is no progress bar in a pipe
+  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // a pipe gets no progress bar
   BOOST_TEST(!contains(outcome.out, "\r"));
   for (const char* part : call.parts)
     BOOST_TEST(contains(to_err ? outcome.err : outcome.out, part), part << " in " << outcome.out);
@@ -379,7 +383,7 @@ BOOST_AUTO_TEST_CASE(drawings_are_written_as_vtk_files) {
   BOOST_TEST(contains(name("shapes.pvd"), "file=\"cantilever-base-shapes-1.vtu\""));
   BOOST_TEST(contains(name("shapes-1.vtu"), "Name=\"displacement\" NumberOfComponents=\"3\""));
   BOOST_TEST(!contains(name("poses-1.vtu"), "displacement"));
-  BOOST_TEST(contains(name("poses-1.vtu"), "\n2 0 0\n"));  // node B
+  BOOST_TEST(contains(name("poses-1.vtu"), "\n2 0 0\n"));  // node B is at x = 2 m
 }
 
 BOOST_AUTO_TEST_CASE(report_draws_history_without_counting_time_twice) {
