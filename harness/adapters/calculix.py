@@ -3,21 +3,21 @@
 
 Members of Euler-Bernoulli beams without springs become, in statics, one user element U1, which is exact at its nodes. U1 is
 unsuitable for other purposes:
-- ccx supports it in statics only.
-- With shear it deflects less than without.
-- Springs on its rotations have the wrong stiffness.
+- ccx supports U1 in statics only.
+- With shear strain, U1 deflects less than without.
+- Springs on rotations of U1 have the wrong stiffness.
 
 Other members become a strip of eight-node plane-stress elements. These are CPS8R, except in buckling, where CPS8R results in
 twice the load and CPS8 is used. The strip is orthotropic. It has E along the member, no contraction, and the shear modulus of
 the case's beam theory. If the theory has no rotary inertia, the mass is in a thin core of the strip.
 
-Plates become CPS3 and CPS6 elements whose material contracts only in their plane. Their mass is that of the interpolation.
-Joints and rigid bodies are equations. Motion in time is a superposition of modes.
+Plates become CPS3 and CPS6 elements whose material contracts only in the plane. Their mass matrix is consistent.
+Joints and rigid bodies become linear constraint equations. Motion in time is a superposition of modes.
 
 Section forces and reactions follow from displacements by the slope-deflection equations. In statics, displacements have all
 digits, from the restart file. Otherwise they have the seven digits that ccx prints.
 
-Two differences remain, because a strip is an elastic body. Under axial load, it lacks (N / EA) (1 + E / G) of the critical load.
+Two differences from beam theory remain. At an axial load N, the critical load is too low by the fraction (N / EA) (1 + E / G).
 A strip that is rigid in shear loses digits, more so if it is slender (1e-5 at a length of 130 times the depth).
 """
 import math
@@ -28,9 +28,9 @@ import subprocess
 from trammel_adapter import Cannot, main
 
 
-SHEAR_RIGID = (8, 300, 1e5)  # G / E for theories without shear strain: lower limit, upper limit under axial loads, upper limit
-THIN, SLENDER = 3, 0.009  # factor of thinness of an inextensible strip, and slenderness below which it is not thinned
-CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes, these have their mass in a core of this fraction of the depth
+SHEAR_RIGID = (8, 300, 1e5)  # G / E for beams without shear strain: minimum, maximum under axial loads, maximum otherwise
+THIN, SLENDER = 3, 0.009  # factor by which inextensible strips are thinner, and depth / length up to which they are not
+CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # fraction of the depth, and beams, of a core with the mass in modes
 CORE_STIFFNESS = 1e-6  # stiffness of the core relative to the strip
 STIFF = 1e5  # factor of the axial stiffness of an inextensible beam element U1
 ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
@@ -153,7 +153,7 @@ def table(lines, title):
 
 
 def unrounded(name, u, nodes):
-    """Returns u with all digits if a displacement record of the restart file agrees with the printed values."""
+    """Returns the displacements u with all digits if a record of the restart file agrees with u, else u."""
     with open(name, "rb") as file:
         data = file.read()
     at, found = 0, {}
@@ -234,7 +234,7 @@ class Frame:
     """Nodes, joints, masses, supports and loads of a model. motions[name] holds the motions x, y and rotation of a node.
 
     strips: element type of the members, or None for U1.
-    loaded: axial forces matter. Then inextensible members stretch, because a constraint would carry the force without stress.
+    loaded: true if axial forces matter. Inextensible members then stretch: a constraint would carry force without stress.
     """
 
     def __init__(self, case, strips, loaded=False, large=False, core=False):
@@ -300,7 +300,7 @@ class Frame:
         self.deck.end += [f"*SOLID SECTION,ELSET={set_name},MATERIAL={set_name}", card(float(plate["thickness_m"]))]
 
     def point(self, x, y, welded=True):
-        """Returns the motions of a point. If no U1 is welded to it, a second node carries its rotation."""
+        """Returns the motions of a point. If no U1 is welded to the point, a second node represents its rotation."""
         node = self.deck.node(x, y)
         if not self.strips:
             self.deck.fix(node, 3, 5 if welded else 3)
@@ -316,7 +316,7 @@ class Frame:
             self.deck.equation([(*motion, 1.0), (*own, -1.0), (*master[2], -lever)])
 
     def end(self, m, i):
-        """Returns the motions of a member's end: those of its node, or separate ones at a hinge or spring."""
+        """Returns the motions of a member's end: the motions of its node, or separate motions at a hinge or spring."""
         motion = self.motions[m.nodes[i]]
         if m.ends[i] == "welded":
             return motion
@@ -341,7 +341,7 @@ class Frame:
         if not m.I:
             raise Cannot("modes and buckling with members that do not bend")
         h = math.sqrt(12 * m.I / m.A)
-        thinner = 1.0  # keeps E I and mass without rotary inertia; E A is irrelevant for constant length
+        thinner = 1.0  # thinning keeps E I and mass, reduces rotary inertia; E A is irrelevant at constant length
         if m.inextensible and self.large:
             thinner = max(1.0, 300 * h / m.L)
         elif m.inextensible and m.beam in NO_ROTARY and self.strips == "CPS8R" and h > SLENDER * m.L:
@@ -353,7 +353,7 @@ class Frame:
         n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter elements lose digits
         rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1 + (not self.loaded)])
         if m.inextensible and thinner == 1 and not self.loaded:
-            rigidity = 1  # equations of constant length lose digits
+            rigidity = 1  # with large G, the equations of constant length lose digits
         x0, y0 = self.model["nodes"][m.nodes[0]]
         rows = []
         for i in range(n + 1):
@@ -396,14 +396,14 @@ class Frame:
         return [nodes[0], *row[1:-1], nodes[1]]
 
     def turning_end(self, m, i):
-        """Checks an end that rotates. In large displacement it is held at its middle only, because equations carry no rotation."""
+        """Checks an end that rotates. In large displacement, only its middle is tied, as ccx equations are linear."""
         node = m.nodes[i]
         others = [o for o in self.members if o is not m and node in o.nodes]
         if m.ends[i] != "hinged" and (others or nodal_loads(self.model).get(node, [0, 0, 0])[2]):
             raise Cannot("rotating welded joints and moments in large displacement")
 
     def keep_length(self, m, middle):
-        """Requires equal axial displacement along the member."""
+        """Constrains all points of a member to equal axial displacement."""
         start, end = self.ends[m.name]
         for motion in [[(node, 1), (node, 2)] for node in middle] + [end]:
             order = sorted([(0, m.dx), (1, m.dy)], key=lambda a: -abs(a[1]))

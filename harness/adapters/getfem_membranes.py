@@ -14,7 +14,7 @@ import scipy.sparse.linalg
 from trammel_adapter import Cannot, main
 
 PARTS = ("materials", "nodes", "plates", "supports", "loads", "point_masses")
-DENSE = 1500  # number of unknowns up to which all modes are computed by a dense solver
+DENSE = 1500  # up to this number of unknowns, a dense solver computes all modes
 ORDER = {3: [0, 1, 2], 6: [0, 3, 1, 5, 4, 2]}  # order of a triangle's nodes in GetFEM, as indices of the case's nodes
 
 
@@ -63,7 +63,7 @@ class Membrane:
         scalar = getfem.MeshFem(mesh, 1)
         scalar.set_fem(getfem.Fem("FEM_PK(2,0)"))
         one = numpy.ones(scalar.nbdof())
-        place = numpy.zeros(field.nbdof(), dtype=int)  # index in the case of each dof of GetFEM
+        place = numpy.zeros(field.nbdof(), dtype=int)  # index in the case for each dof of GetFEM
         for convex, order in enumerate(names):
             dofs = field.basic_dof_from_cvid(convex)[0]
             for i, name in enumerate(order):

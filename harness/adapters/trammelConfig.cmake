@@ -7,7 +7,7 @@
 #
 #   trammel_add_tests(SOLVER command... [CASES name...] [LABELS label...] [PREFIX prefix] [TIMEOUT s])
 #
-# Adds one ctest test per case: the named cases, and those of the catalogue with one of the labels. Each test
+# Adds one ctest test for each named case and each case of the catalogue with one of the labels. Each test
 # runs the command ('command CASE.json RESULT.json') and grades its answer.
 get_filename_component(trammel_PREFIX ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
 set(trammel_PROGRAM ${trammel_PREFIX}/bin/trammel)

@@ -1,4 +1,4 @@
-"""Reads cases of `trammel export` and writes results for `trammel grade`. One file, no dependencies.
+"""Reads cases of `trammel export` and writes results for `trammel grade`. It has no dependencies.
 
     from trammel_adapter import main, Cannot
 
@@ -23,7 +23,7 @@ KEYS_OF_MEMBERS = {"nodes", "section", "beam", "elements", "ends", "axial", "mas
 
 
 class Cannot(Exception):
-    """The code does not support the case, which is no failure. The text is the reason."""
+    """Raised if the code does not support a case. This is not a failure. The text is the reason."""
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Member:
     A: float                # area [m^2]
     I: float                # second moment [m^4]
     kappa: float            # shear coefficient
-    half_depth: float       # of the outermost fiber [m]; None if not given
+    half_depth: float       # distance of the outermost fiber from the axis [m]; None if absent
     beam: str               # "euler-bernoulli", "rayleigh", "shear" or "timoshenko"
     elements: int           # number of elements that the case requests
     ends: tuple
@@ -48,7 +48,7 @@ class Member:
 
 class Case(dict):
     """A resolved case: the JSON object, with shortcuts for adapters."""
-    element_order = None    # order of the requested quantities, if solve() sets it
+    element_order = None    # order of convergence of the requested quantities; solve() may set it
 
     @property
     def model(self):
@@ -69,7 +69,7 @@ class Case(dict):
         return {one["name"]: one["unit"] for one in self["export"]["quantities"]}
 
     def require(self, kinds, parts, options=()):
-        """Raises Cannot for any other kind of analysis, part of the model or option.
+        """Raises Cannot for an analysis, a part of the model or an option that is not listed.
         Options that are false and the choice of eigensolver are ignored."""
         if self.kind not in kinds:
             raise Cannot("analysis '%s' is not supported" % self.kind)

@@ -26,7 +26,7 @@ FAULTS = {
 }
 FAULT = sys.argv[sys.argv.index("--fault") + 1] if "--fault" in sys.argv else None
 if FAULT is not None and FAULT not in FAULTS:
-    sys.exit("expected a fault of: " + ", ".join(FAULTS))
+    sys.exit("expected one of the faults " + ", ".join(FAULTS))
 STIFF = 1e12  # factor of the axial stiffness of an inextensible member
 GAUSS = [(0.069431844202973712, 0.173927422568726929), (0.330009478207571868, 0.326072577431273071),
          (0.669990521792428132, 0.326072577431273071), (0.930568155797026288, 0.173927422568726929)]
@@ -78,7 +78,7 @@ def turned(K, c, s):
 
 
 class Frame:
-    """Elements with their dof numbers. Nodes of the file come last, to keep the bandwidth small."""
+    """Frame elements and their dofs. Dofs of the case's nodes come last, for a small bandwidth."""
 
     def __init__(self, case, cut):
         self.case, self.names, self.elements, self.springs = case, {}, [], []
@@ -201,7 +201,7 @@ def uniform_load(m, L, c, s):
 
 
 def statics(case):
-    frame = Frame(case, cut=False)  # uncut members are exact in statics
+    frame = Frame(case, cut=False)  # one element per member is exact in statics
     K, _, free = frame.matrices()
     load = [0.0] * frame.count
     order = list(frame.names)

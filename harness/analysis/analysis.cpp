@@ -17,7 +17,7 @@ using solver::Residual;
 
 int solver_rounding = FE_TONEAREST;
 
-/// Sets the rounding mode of the solver during the lifetime of the object.
+/// Sets the floating-point rounding mode to `solver_rounding` during the lifetime of the object.
 class RoundingScope {
  public:
   RoundingScope() : before_(std::fegetround()) { std::fesetround(solver_rounding); }
@@ -61,8 +61,8 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
       result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
   if (of_load > solver::kLoadWarning)
     result.warnings.push_back(
-        {"the residual over the loads", of_load, "",
-         "the model is ill-conditioned, so that round-off dominates its forces"});
+        {"the ratio of the residual to the loads", of_load, "",
+         "the model is ill-conditioned, so that round-off error dominates the forces"});
   return result;
 }
 

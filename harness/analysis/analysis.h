@@ -31,7 +31,7 @@ struct AnalysisResult : StepResult {
 [[nodiscard]] std::string analysis_kind(const Document& document);
 
 /// Sets the rounding mode (of <cfenv>) of the solver in this process and in processes that it
-/// forks. Reading of cases, checks and output continue to round to nearest.
+/// forks. Code outside of the solver, such as checks and output, continues to round to nearest.
 void set_solver_rounding(int mode);
 
 /// Adds a warning if the determinant of the parallel Jacobian changes its sign between two points

@@ -34,14 +34,14 @@ void disagree(double by, OptionCounts& counts) {
 
 /// Combinations of options that are tested for one analysis.
 struct Options {
-  std::vector<Json> combinations;  ///< patches of the analysis, one per combination
-  bool must_agree = false;         ///< if true, no combination may change a number
+  std::vector<Json> combinations;  ///< one JSON object of options per combination
+  bool must_agree = false;         ///< true if all combinations must yield equal results
   /// Words that the reason of the outcome must contain if a computation does not converge.
   std::vector<std::string> required_terms;
 };
 
-/// Returns all combinations of the option values under the key "vary". Each also contains the
-/// options under the key "set".
+/// Returns all combinations of the option values under the key "vary". Each combination also
+/// contains the options under the key "set".
 std::vector<Json> combinations_of(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
@@ -125,7 +125,7 @@ std::string computation_key(const Document& document) {
 }
 
 /// Runs one computation with every combination of options.
-/// @param seen  keys of the computations that have been run and are not repeated
+/// @param seen  keys of completed computations, which are not repeated; new keys are added
 void run_combinations(const Document& document, const JsonView& place, const References& references,
                       std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
@@ -157,8 +157,8 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
   }
 }
 
-/// Returns the cases to be computed for a variant: the variant itself or, if it is a study, the
-/// cases of selected parameter values.
+/// Returns the cases to be computed for a variant: the variant itself or, if its analysis is a
+/// study, the cases with the selected parameter values.
 std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;

@@ -31,9 +31,9 @@ struct KeptQuantity {
   double value = kNaN, roundoff = -1;
 };
 
-/// Returns the number of a quantity that a study records.
+/// Returns the value that a study records for a quantity of the inner analysis.
 /// @throws InputError  if the quantity does not exist, or has several numbers and neither 'index'
-/// nor 'statistic' selects one.
+/// nor 'statistic' selects a number.
 KeptQuantity number_of(const Quantities& quantities, const std::string& name,
                        const JsonView& keep) {
   const auto found = quantities.find(name);

@@ -19,10 +19,10 @@ AnalyseCase analyze_options;
 /// relative_difference and difference_percent.
 AnalyseCase analyze_comparison;
 
-/// Records probabilities that are stored in a reference. They are the probabilities of the models
-/// (readings) that the authors of a printed table may have used. The quantities are log_evidence,
-/// class_count, class_entropy_bits, ... Each row of the table has separate quantities, with one
-/// number per assumed discrepancy of the printed values.
+/// Records probabilities that are stored in a reference: the probabilities of the models (readings)
+/// that the authors of a printed table may have used. The quantities are log_evidence, class_count,
+/// class_entropy_bits, ... Each row of the table has separate quantities, with one number per
+/// assumed discrepancy of the printed values.
 AnalyseCase analyze_model_probabilities;
 
 /// Returns a case for each parameter value of a study. These cases have the analysis that the study

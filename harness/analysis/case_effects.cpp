@@ -29,8 +29,8 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-/// Returns the effects with which a case without the key "effects" is computed. The keys of its
-/// model and analysis define them.
+/// Returns the effects of a case that does not have the key "effects". The keys of the model and of
+/// the analysis define these effects.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))
@@ -49,7 +49,8 @@ const char* reason_not_applicable(Effect effect, const EffectScope& scope,
   return known ? scope.no_large_displacement : rules.reason_not_applicable(effect);
 }
 
-/// Returns one row per effect with its state and the reason.
+/// Returns one table row per effect, with its state (applicable, active) and the reason for this
+/// state.
 /// @param reason  reason for the state of effects that are applicable but not required
 std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects chosen,
                                             const EffectRules& rules, const std::string& reason) {
@@ -67,7 +68,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
   return rows;
 }
 
-/// Returns the effects with these names, which the schema has validated.
+/// Returns the required effects and the effects in the list `names`, which satisfies the schema.
 Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
@@ -81,12 +82,12 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
     for (const Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier))
-        throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
-                          std::string(solver::name_of(effect)) + "', which requires it");
+        throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' too: '" +
+                          std::string(solver::name_of(effect)) + "' requires this effect");
     }
   if (!(scope.with_implied_effects(chosen) == chosen))
     throw names.error(
-        "'large-displacement' with 'inertia' includes 'gyroscopic'; expected it in the list");
+        "expected 'gyroscopic' in the list: 'large-displacement' with 'inertia' includes it");
   return chosen;
 }
 
@@ -100,15 +101,15 @@ std::string describe_decision(Effect effect, const EffectScope& scope,
     return "removing this effect " +
            std::string(alone ? "" : "in addition to those already removed ") +
            "changes the results by " + (evidence.is_measured ? "" : "at most ") + percent(*change) +
-           (is_chosen ? ", too much for " : ", within ") + percent(tolerance);
+           (is_chosen ? ", above tolerance " : ", within tolerance ") + percent(tolerance);
   }
   if (change) return "the results have no meaning without this effect";
   for (const Effect dependent : scope.dependents[static_cast<std::size_t>(effect)].list())
     if (selection.chosen.has(dependent))
       return "required by " + std::string(solver::name_of(dependent));
-  if (!is_chosen) return "removed with an effect that it depends on";
-  return is_expensive(effect) ? "kept: measuring it would cost more than removing it could save"
-                              : "kept: it changes coefficients only and costs nothing";
+  if (!is_chosen) return "removed together with an effect that it depends on";
+  return is_expensive(effect) ? "kept: measuring the effect costs more time than removing it saves"
+                              : "kept: the effect only changes coefficients and costs no time";
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
@@ -169,7 +170,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   EffectChoice choice;
   if (!requested) {
     choice.chosen = stated_effects(document, scope);
-    choice.rows = effect_rows(scope, choice.chosen, rules, "stated by the parts");
+    choice.rows = effect_rows(scope, choice.chosen, rules, "specified by model and analysis");
     return choice;
   }
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {

@@ -14,7 +14,7 @@ namespace trammel::harness {
 /// Physical effects, such as rotary inertia, with which a case is computed.
 struct EffectChoice {
   solver::Effects chosen = solver::Effects::all();
-  std::optional<double> tolerance;  ///< tolerance of the automatic selection; empty without it
+  std::optional<double> tolerance;  ///< tolerance of an automatic selection; else empty
   /// State of every effect; empty if the analysis has no effects.
   std::vector<results::EffectRow> rows;
   std::optional<EffectSelection> automatic;  ///< result of the automatic selection
@@ -29,7 +29,8 @@ struct EffectChoice {
 /// Returns true if the case's analysis supports the selection of effects.
 [[nodiscard]] bool supports_effects(const Document& document);
 
-/// Returns the effects that are applicable to a case, and the effects that its analysis requires.
+/// Returns the effects that are applicable to a case, and the effects that the analysis of the case
+/// requires.
 [[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
 
 /// Reads the key "effects" of a case: names, or {"auto": {"tolerance": ...}}. Without this key, the

@@ -90,10 +90,10 @@ std::optional<Quantities> CoarseScene::compute_at_step(Effects effects, std::siz
     outcome = outcome_at_path_point(scene_, step, result.outcome);
   } catch (const solver::ModelError& error) {
     // Removal of an effect may make the model invalid. The changed model then counts as unsolved.
-    // The first set of effects is the complete one, so its error is an error of the case.
+    // The first computation includes all effects, so that its error is an error of the case.
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
-  } catch (const InputError& error) {  // fewer modes than damping ratios, for example
+  } catch (const InputError& error) {  // for example, fewer modes than damping ratios
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
   }

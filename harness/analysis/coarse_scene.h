@@ -9,9 +9,9 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Coarse models of a scene (a case whose effects are selected), which cost less than the complete
-/// model. The work of a computation is estimated from its numbers of solves, factorizations and
-/// element matrices.
+/// Coarse models of a scene (a case whose effects are selected), which require less computing time
+/// than the complete model. The work of a computation is estimated from its numbers of solves,
+/// factorizations and element matrices.
 namespace trammel::harness {
 
 /// Returns the scene on a coarse mesh: at most `elements` elements per member, and three triangles
@@ -21,13 +21,14 @@ namespace trammel::harness {
 /// Returns the number of unknowns of a model before constraints.
 [[nodiscard]] double unknown_count(const solver::Model& model);
 
-/// Returns the estimated work of a computation. The unit is the time of one solve divided by its
+/// Returns the estimated work of a computation. The unit is the time of one solve divided by the
 /// number of unknowns. A factorization of a planar frame counts as 8 solves. An element matrix
 /// counts as one solve for 24 unknowns. Both weights are medians of measured times over the random
-/// scenes of the tests.
+/// models of the tests.
 [[nodiscard]] double estimated_work(const solver::Counters& counters, double unknowns);
 
-/// Scene on a coarse mesh. Caches the results for each set of effects at each step of the path.
+/// Model of a case on a coarse mesh. Caches the results for each set of effects and each step of
+/// the path.
 class CoarseScene {
  public:
   CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
@@ -38,17 +39,18 @@ class CoarseScene {
         model_(model_at_path_start(scene_)),
         size_(typical_scales(model_)) {}
 
-  /// Returns the largest relative change of the results at these steps of the path if the effects
-  /// `all` are replaced by `effects`. The change is infinite without a solution.
+  /// Returns the largest relative change of the results at `steps` of the path if `all_effects` are
+  /// replaced by `effects`. Returns infinity if a model has no solution at one of the steps.
   [[nodiscard]] double max_result_change(solver::Effects all_effects, solver::Effects effects,
                                          const std::set<std::size_t>& steps);
-  /// Returns the results at these steps of the path; empty if one of the steps has no solution.
+  /// Returns the results at `steps` of the path; empty if the model has no solution at one of the
+  /// steps.
   [[nodiscard]] std::optional<Quantities> results_at_steps(solver::Effects effects,
                                                            const std::set<std::size_t>& steps);
 
   [[nodiscard]] const ModelScales& model_scales() const { return size_; }
   [[nodiscard]] const solver::Model& model() const { return model_; }
-  solver::Outcome outcome;  ///< last outcome without a solution
+  solver::Outcome outcome;  ///< outcome of the last computation without solution
   solver::Counters counters;
 
  private:

@@ -89,7 +89,8 @@ std::map<std::string, double> change_scales(const Quantities& full, const ModelS
   const double speed = known("velocity", 0), spin = known("angular velocity", 0);
   floor("velocity", spin * length);
   floor("angular velocity", speed / length);
-  // The origin of positions is arbitrary, so their scale is the length of the model.
+  // The origin of positions is arbitrary, so that changes of positions are relative to the length
+  // of the model.
   if (scale.count("position") > 0) scale["position"] = length;
   return scale;
 }
@@ -143,8 +144,8 @@ Changes changes_between(const Quantities& full, const Quantities& other, const M
     if (kind.empty()) continue;
     const auto found = other.find(name);
     LargestDifference& largest = changes[kind];
-    if (found == other.end()) {  // Without the effect, a part may lack the quantity, or a mode may
-                                 // be lost.
+    if (found == other.end()) {  // The model without the effect may have fewer quantities or
+                                 // modes.
       if (kind == "frequency") largest.value = std::numeric_limits<double>::infinity();
       continue;
     }

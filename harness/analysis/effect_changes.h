@@ -16,7 +16,7 @@ namespace trammel::harness {
 /// if unknown. Changes are relative to these magnitudes if the values of a quantity are all zero up
 /// to round-off.
 struct ModelScales {
-  double length = 0;  ///< twice the largest distance of a node from the mean [m]
+  double length = 0;  ///< twice the largest distance of a node from the mean node [m]
   double force = 0;   ///< sum of the magnitudes of loads, and of moments / length [N]
   /// Elongation of a bar under `force` [m]. The bar has this `length` and the largest axial
   /// stiffness of the model.
@@ -25,7 +25,8 @@ struct ModelScales {
 [[nodiscard]] ModelScales typical_scales(const solver::Model& model);
 
 /// Returns the scale of the changes of each group of quantities, such as forces. The scale is the
-/// largest value of the group, or the round-off error of the group if that is larger.
+/// largest value of the group, or the round-off error of the group if the round-off error is
+/// larger.
 [[nodiscard]] std::map<std::string, double> change_scales(const Quantities& full,
                                                           const ModelScales& model);
 /// Largest relative change of each group of quantities, by the name of the group. Changes of

@@ -12,8 +12,8 @@ using solver::Effect;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Computes the first angular frequency of each member as a cantilever, and returns the highest
-/// [rad/s].
+/// Returns the highest of the first natural angular frequencies of all members, each clamped at one
+/// end [rad/s].
 double highest_first_frequency(const solver::Model& model) {
   double highest = 0;
   for (const solver::Member& member : model.members) {
@@ -47,13 +47,13 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
   scale.loads_stiffen =
       analysis_name == "statics" || analysis_name == "modes" || analysis_name == "large-motion";
   if (analysis_name == "modes") {
-    scale.phase = scale.platform = 0.5;  // f is proportional to the root of a stiffness
+    scale.phase = scale.platform = 0.5;  // a frequency is proportional to sqrt(stiffness)
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
     // Near a resonance, the response changes much more than the stiffness or mass that causes the
     // change. Only damping limits this amplification. The sampled frequencies rarely contain the
-    // peak. The assumed amplification is between kLeast and kMost, which cover the random scenes of
+    // peak. The assumed amplification is between kLeast and kMost, which cover the random models of
     // the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
@@ -72,8 +72,8 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
 }
 
 EffectNumbers dimensionless_numbers(const solver::Model& model, const ResponseScale& scale) {
-  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. These
-  /// ratios bound the changes in nearly all random scenes of the tests.
+  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. In
+  /// nearly all random models of the tests, the actual ratios are smaller.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
   /// Ratio of the relative change of a frequency to the dimensionless number of geometric
   /// stiffening. A cantilever buckles at a quarter of pi^2 E I / L^2, and a frequency changes by
@@ -110,8 +110,8 @@ EffectNumbers dimensionless_numbers(const solver::Model& model, const ResponseSc
   // Loads near the buckling load of a cantilever amplify the change of the results by every effect.
   const double of_buckling = scale.loads_stiffen ? 4 * load : 0;
   const double factor = of_buckling < 0.95 ? scale.phase / (1 - of_buckling) : kInfinite;
-  set(Effect::axial_flexibility, axial, kInfinite);  // a frame may carry its loads by axial forces
-                                                     // only
+  set(Effect::axial_flexibility, axial, kInfinite);  // infinite, because axial forces alone may
+                                                     // carry the loads of a frame
   set(Effect::shear, shear, shear * factor);
   set(Effect::rotary_inertia, rotary, rotary * factor);
   set(Effect::joint_compliance, joint, kOfJoint * joint * factor);

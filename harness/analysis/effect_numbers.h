@@ -13,9 +13,10 @@ namespace trammel::harness {
 /// of effects and the estimated changes of the results.
 struct ResponseScale {
   double half_waves = 1;  ///< number of bending half waves per member
-  /// Phase angle of the vibration over which a relative change of a frequency accumulates [rad].
+  /// Ratio of the relative change of the results to that of a stiffness or mass. In a transient
+  /// vibration, this ratio is half of the phase angle [rad].
   double phase = 1;
-  double platform = 1;         ///< `phase` for changes of the platform's stiffness [rad]
+  double platform = 1;         ///< ratio as `phase`, for the stiffness of the platform
   bool loads_stiffen = false;  ///< true if the axial forces of loads change the stiffness
 };
 

@@ -26,8 +26,8 @@ constexpr const char* kNoRotary = "the beam theory of the sections has no rotary
 constexpr const char* kNoMass = "no member has a mass";
 constexpr const char* kNotTurning = "the frame does not rotate";
 constexpr const char* kNotTurningInPlane = "no frame rotates about an axis normal to the plane";
-constexpr const char* kNoDamping = "there is no 'damping'";
-constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
+constexpr const char* kNoDamping = "the analysis has no key 'damping'";
+constexpr const char* kLarge = "vibration with this effect requires 'large-motion'";
 
 constexpr std::array<const char*, 4> all(const char* text) {
   return {text, text, text, text};
@@ -54,12 +54,12 @@ const EffectWords& words_of(Effect effect) {
        {kAtRest, kNotTurning, kNotTurning, kNotTurning}},
       /* damping */
       {"damping ratio of the first mode",
-       {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
+       {kAtRest, "modes are computed without damping", kNoDamping, kNoDamping}},
       /* gyroscopic */
-      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "'rotating_frame' is always kept"}},
+      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "included in 'rotating_frame'"}},
       /* geometric stiffening */
-      {"loads over the buckling load of a hinged member",
-       {kLarge, "there are no loads", "the effect large-displacement includes it", kLarge}},
+      {"ratio of the loads to the buckling load of a hinged member",
+       {kLarge, "there are no loads", "'large-displacement' includes this effect", kLarge}},
       /* large displacement */
       {"", {kLarge, "modes describe small motions only", "", kLarge}},
   }};
@@ -104,8 +104,8 @@ EffectScope modes_at_rest_scope(const solver::Model& model) {
   return scope;
 }
 
-/// Returns the applicable and the required effects of modes in a rotating frame. Gravity, if
-/// present, is required: it cannot be omitted.
+/// Returns the applicable and the required effects of modes in a rotating frame. If the model has
+/// gravity, gravity is a required effect.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
@@ -138,8 +138,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
-/// Returns true if point masses or plates have mass. If not, the mass of members is required for
-/// vibration.
+/// Returns true if point masses or plates have mass. If they have no mass, vibration requires the
+/// mass of members.
 bool has_mass_of_other_parts(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||

@@ -22,8 +22,8 @@ struct EffectScope {
   /// For each effect, its dependents, which are meaningless without the effect. In statics, the
   /// mass of links is a dependent of gravity.
   std::array<solver::Effects, solver::kEffectCount> dependents{};
-  /// Reason why the options or the model exclude large displacement; null if they do not exclude
-  /// it.
+  /// Reason why the options or the model exclude large displacement; null if large displacement is
+  /// possible.
   const char* no_large_displacement = nullptr;
 
   /// Adds gyroscopic forces to a set of effects with large displacement and inertia, which imply

@@ -68,9 +68,9 @@ class Selector {
     return selection_.chosen.has(effect) && !scope_.required.has(effect);
   }
 
-  /// Removes an effect from the chosen effects if the results then differ from those of the set
-  /// `full` by at most the fraction `share` of the remaining tolerance. `change` is this relative
-  /// difference.
+  /// Removes an effect from the chosen effects if `change` is at most the fraction `share` of the
+  /// remaining tolerance. `change` is the relative change of the results compared with those of the
+  /// effects `full`.
   bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
     EffectEvidence& evidence = selection_.of(effect);
     evidence.is_measured = is_measured;
@@ -83,12 +83,12 @@ class Selector {
 
   /// Removes effects by dimensionless numbers, while the sum of the estimated changes of the
   /// results is within a fraction of the tolerance. Expensive effects (a meshed platform,
-  /// stiffening of a frame at rest) precede cheap ones. Each group is in ascending order of the
-  /// estimated change.
+  /// stiffening of a frame at rest) precede cheap ones. Expensive and cheap effects are each in
+  /// ascending order of the estimated change.
   void apply_numbers(const ResponseScale& scale) {
     const EffectNumbers numbers = dimensionless_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
-      // A suddenly applied load excites every mode, including those of stiff parts.
+      // A suddenly applied load excites every mode, including the modes of stiff parts.
       const bool strikes = from_rest_ && effect != Effect::shear;
       return strikes ? kInfinite : numbers[static_cast<std::size_t>(effect)].change;
     };
@@ -128,7 +128,7 @@ class Selector {
   /// prismatic member is exact in linear theory. If linear theory is insufficient near a buckling
   /// load, compares second-order theory with large displacement on four elements per member, which
   /// reproduce buckling. On a path, only the steps with extreme results of linear theory are
-  /// compared. Steps with a change beyond the tolerance are added.
+  /// compared. Further steps at which the change exceeds the tolerance are then added.
   void select_in_statics() {
     CoarseScene single(kind_, analysis_, scene_, 1), finer(kind_, analysis_, scene_, 4);
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
@@ -149,7 +149,7 @@ class Selector {
       };
       // Second-order theory neglects the shortening of a rotated member. Relative to the
       // deflection, the shortening is of the order of the rotation. Second-order theory saves load
-      // steps only near a buckling load.
+      // steps only if the ratio of axial force to buckling load exceeds kManySteps.
       constexpr double kManySteps = 0.1;
       const Deflection size = deflection(*overview);
       if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&
@@ -161,8 +161,8 @@ class Selector {
   }
 
   /// Returns the largest relative change of the results at `steps` if the effects `all` are
-  /// replaced by `effects`. Adds steps at which the change exceeds the permitted fraction of the
-  /// tolerance.
+  /// replaced by `effects`. Adds to `steps` those steps of the path at which the change exceeds the
+  /// permitted fraction of the tolerance.
   double change_along(CoarseScene& coarse, Effects all, Effects effects,
                       const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
     for (;;) {
@@ -240,12 +240,13 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// Computes first frequency and damping ratio at the start of a motion, on one element per link.
+  /// Computes the first natural frequency and its damping ratio at the start of a motion, on a mesh
+  /// of one element per link.
   ResponseScale scale_of_motion() {
     if (const auto history = analysis_.find("load_history"))
       throw history->error(
           "automatic effects require a constant load; a pulse may fall between the times at which "
-          "they are measured");
+          "effects are measured");
     CaseModel coarse = coarsen_scene(scene_, 1);
     coarse.effects = scope_.remove_with_dependents(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
@@ -278,8 +279,8 @@ class Selector {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
 
-  /// Returns the angular frequency of the path [rad/s]: its largest acceleration over its largest
-  /// velocity.
+  /// Returns the angular frequency of the path [rad/s]: the ratio of largest acceleration to
+  /// largest velocity.
   [[nodiscard]] double path_rate() const {
     constexpr int kSamples = 64;
     double velocity = 0, acceleration = 0;
@@ -393,7 +394,7 @@ class Selector {
       for (const solver::StaticSolution& state : solution.state)
         StateRecorder(coarse_model_, "elastodynamics").record({state}, record);
       return record.take_quantities();
-    } catch (const solver::ModelError&) {  // the theory does not support these options
+    } catch (const solver::ModelError&) {  // `solve` does not support `options`
       return std::nullopt;
     }
   }

@@ -8,30 +8,32 @@
 /// Selects the physical effects that the results of a case require within a tolerance.
 ///
 /// Cheap effects change coefficients but neither matrix sizes nor numbers of steps: axial
-/// flexibility, shear, rotary inertia, joint compliance, the mass of links and gravity. They are
-/// removed by closed-form dimensionless numbers, without any computation. In case of doubt they
-/// remain.
+/// flexibility, shear, rotary inertia, joint compliance, the mass of links and gravity. Cheap
+/// effects are removed by closed-form dimensionless numbers, without any computation. In case of
+/// doubt, cheap effects are kept.
 ///
 /// Expensive effects are large displacement, geometric stiffening, inertia with damping, gyroscopic
 /// terms and a meshed platform. The change of the results by such an effect is measured on a coarse
-/// model. This is only done if the measurement costs less than the removal of the effect may save.
-/// The effect with the largest saving is measured first. Without a measurement, dimensionless
-/// numbers decide.
+/// model. The change is only measured if the measurement costs less time than the removal of the
+/// effect may save. The effect with the largest saving is measured first. Without a measurement,
+/// dimensionless numbers decide about the removal.
 namespace trammel::harness {
 
 /// Evidence for the importance of one effect.
 struct EffectEvidence {
   std::optional<double> number;  ///< dimensionless number of the effect
-  std::optional<double> own;     ///< relative change of the results without this effect only
+  std::optional<double> own;     ///< relative change if only this effect is removed
   /// Relative change of the results if this effect is removed together with all effects that were
   /// removed before it.
   std::optional<double> cumulative;
-  /// True if the changes of the results are measured on a coarse model; false if they are bounds.
+  /// True if the changes of the results are measured on a coarse model; false if the changes are
+  /// upper bounds.
   bool is_measured = false;
 };
 
 struct EffectSelection {
-  /// Outcome of the coarse model with all effects. If it is not solved, every effect remains.
+  /// Outcome of the coarse model with all effects. If the coarse model is not solved, all effects
+  /// are kept.
   solver::Outcome outcome;
   solver::Effects chosen;
   std::array<EffectEvidence, solver::kEffectCount> evidence;

@@ -92,7 +92,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .without_model = "none: comparison of references"},
       {.name = "model-probabilities",
        .of_case = analyze_model_probabilities,
-       .without_model = "none: stored probabilities of readings"},
+       .without_model = "none: stored probabilities of interpretations"},
       {.name = "study", .of_case = analyze_study, .without_model = "created by the analysis"},
       {.name = "options", .of_case = analyze_options, .without_model = "models of other cases"}};
   return kinds;

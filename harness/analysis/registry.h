@@ -18,13 +18,13 @@ struct AnalysisKind {
   const EffectRules* effects = nullptr;  ///< null: the analysis does not support effects
   /// Function that performs the analysis if `of_scene` is empty or the case has no key "model".
   AnalyseCase* of_case = nullptr;
-  const char* without_model = "";  ///< description of the model for `of_case`
+  const char* without_model = "";  ///< description of the model if `of_case` is used
   /// Residuals that must be small for the status "solved"; empty if no equation is solved.
   std::vector<solver::Residual> evidence = {};
-  /// If true, warns if a path crosses a parallel singularity between two of its points.
+  /// True if the analysis warns of paths that cross a parallel singularity between two points.
   bool warns_of_crossing = false;
-  /// True if the analysis determines the times of its results. If false, they are the times of the
-  /// points of the path.
+  /// True if the analysis determines the times of its results. If false, the results belong to the
+  /// times of the points of the path.
   bool has_own_times = false;
 
   [[nodiscard]] bool needs_model(const Document& document) const;

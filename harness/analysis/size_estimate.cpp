@@ -11,18 +11,18 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes per coordinate, per non-zero of a matrix factor and per recorded number. They were measured
-// and include a margin (size_estimate_test). Coordinates require memory in the model, matrices and
-// states. Recorded numbers are also written as JSON and drawn.
+// Bytes per coordinate, per non-zero of a matrix factor and per recorded number. These numbers were
+// measured and include a margin (size_estimate_test). Coordinates require memory in the model,
+// matrices and states. Recorded numbers are also written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
 /// Memory per number of a sensitivity map, and per number of the samples of a neural network
-/// [bytes]. The numbers of a map are rounded and drawn; those of samples are read from JSON.
+/// [bytes]. The numbers of a map are rounded and drawn; the numbers of samples are read from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
 /// Bytes per recorded number of a frequency response.
 constexpr double kResponseNumber = 22;
 
-/// Returns the memory per coordinate of an analysis, relative to that of statics, which requires
-/// the most memory.
+/// Returns the memory per coordinate of an analysis, relative to the memory of statics, which is
+/// the largest.
 double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
   if (kind == "manufactured") return 0.5;
   if (kind != "harmonic" || in_plane) return 1;
@@ -172,8 +172,8 @@ class Estimator {
   const Document& document_;
   JsonView root_;
   SizeEstimate size_;
-  std::map<std::string, double> bytes_;  ///< bytes by the key of the case that causes them
-  double points_ = 1, numbers_ = 100;    ///< points of the path, and numbers recorded at each point
+  std::map<std::string, double> bytes_;  ///< memory [bytes] by JSON pointer of its cause
+  double points_ = 1, numbers_ = 100;    ///< counts: path points, recorded numbers per point
   double share_in_plane_ = 1, share_of_members_ = 1;
   std::string path_ = "/model";
 };

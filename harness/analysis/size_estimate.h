@@ -24,7 +24,7 @@ struct SizeEstimate {
 
 /// Rejects a computation that requires too much memory.
 /// @throws InputError  at the key that causes the size, if the estimate exceeds `max_memory` or a
-///     factor has more entries than 32 bits can count.
+///     matrix factor has more non-zeros than a 32-bit integer can count.
 void require_memory(const Document& document,
                     double max_memory = static_cast<double>(memory_limit_bytes()));
 

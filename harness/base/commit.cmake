@@ -1,4 +1,5 @@
-# Writes the commit into a header, on every build, and only when it has changed.
+# Writes the git commit into a header. Runs on every build, but writes only if the commit has
+# changed.
 #   cmake -DSOURCE=... -DHEADER=... -P commit.cmake
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)

@@ -22,8 +22,9 @@ std::string file_hash(const std::filesystem::path& file) {
 }
 
 std::string program_hash() {
-  dl_phdr_info program{};  // of the first loaded object, which is the program itself
-  // The callback only copies, because a C function calls it and must not receive exceptions.
+  dl_phdr_info program{};  // data of the first loaded object: the program itself
+  // The callback only copies a structure, because its caller is a C function, which must not
+  // receive exceptions.
   const auto copy_first = [](dl_phdr_info* object, std::size_t, void* copy) {
     *static_cast<dl_phdr_info*>(copy) = *object;
     return 1;

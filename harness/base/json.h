@@ -7,7 +7,7 @@
 namespace trammel::harness {
 
 /// JSON type that keeps the order of keys. Cases, checks and variants are therefore shown in the
-/// order of their file.
+/// order in which the file lists them.
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 

@@ -46,7 +46,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     if (is_known(members, name))
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
-    // `is_known` has already searched all keys, and operator[] would search them again.
+    // The member is appended directly, because operator[] would search all keys once more.
     auto& container = static_cast<Json::object_t::Container&>(members);
     make_room(container);
     member_ = &container.emplace_back(name, nullptr).second;
@@ -71,8 +71,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
   Json take() { return std::move(root_); }
 
  private:
-  /// Returns true if the innermost open object has the key. Large objects use a set, which makes
-  /// objects with 100,000 members feasible.
+  /// Returns true if the innermost open object contains the key `name`. Large objects use a set,
+  /// which makes objects with 100,000 members feasible.
   bool is_known(const Json::object_t& members, const std::string& name) {
     constexpr std::size_t few = 32;
     if (members.size() < few) return members.find(name) != members.end();
@@ -132,7 +132,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
   Json root_;
   Json* member_ = nullptr;   ///< value of the key read last
   std::vector<Json*> open_;  ///< open objects and arrays, from the root inward
-  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each open object; empty for few
+  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each large open object
 };
 
 }  // namespace
@@ -180,8 +180,8 @@ namespace {
 
 void append_json(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
   // Large files, such as results.json, are written with a limit of the nesting depth (`deepest`).
-  // Their lines are indented by at most one space, because full indentation would take 2 % of the
-  // file size.
+  // The lines of such files are indented by at most one space, because full indentation would take
+  // 2 % of the file size.
   const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
   const auto line = [&](std::size_t spaces) {
     text.append(1, '\n').append(std::min(spaces, most), ' ');
@@ -244,7 +244,7 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(part, std::ios::binary);
   out << text;
   out.close();
-  const int cause = errno != 0 ? errno : EIO;  // such as a full disk
+  const int cause = errno != 0 ? errno : EIO;  // for example ENOSPC for a full disk
   if (out && !in_place) std::filesystem::rename(part, file, error);
   if (out && !error) return;
   if (!out) error.assign(cause, std::generic_category());

@@ -13,14 +13,14 @@ namespace trammel::harness {
 class Number {
  public:
   Number() = default;
-  Number(double value) : value_(value) {}     // NOLINT: a number is given as a double
+  Number(double value) : value_(value) {}     // NOLINT: conversion from a double is implicit
   Number(std::nullopt_t) {}                   // NOLINT
   Number(const std::optional<double>& value)  // NOLINT
       : value_(value.value_or(kMissing)) {}
 
   [[nodiscard]] bool has_value() const { return std::isfinite(value_); }
   explicit operator bool() const { return has_value(); }
-  /// The stored double, which is not finite if the number is missing.
+  /// Returns the stored double, which is not finite if the number is missing.
   [[nodiscard]] double operator*() const { return value_; }
   [[nodiscard]] double value_or(double other) const { return has_value() ? value_ : other; }
   /// @throws std::bad_optional_access  if the number is missing.

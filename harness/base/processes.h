@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Runs functions and programs in separate processes, so that a crash, an endless loop or excessive
-/// memory use of one of them does not affect the others.
+/// Runs functions and programs in separate processes. A crash, an endless loop or excessive memory
+/// use of one process therefore does not affect other processes.
 namespace trammel::harness {
 
 struct ProcessTask {
@@ -35,19 +35,20 @@ struct ProcessOptions {
 };
 
 /// Sets the exit status and the line on standard error for an allocation failure that no code
-/// catches, such as a failure in a destructor of the JSON library.
+/// catches. An example is a failure in a destructor of the JSON library.
 void set_out_of_memory_exit(int status, const char* line);
 
-/// Returns the memory limit of this process: the limit set by `run_in_processes`, else half of the
-/// smallest of machine memory, cgroup limit and address space.
+/// Returns the memory limit of this process [bytes]: the limit set by `run_in_processes`, else half
+/// of the smallest of machine memory, cgroup limit and address space.
 [[nodiscard]] std::size_t memory_limit_bytes();
 
-/// Runs the tasks in worker processes forked from this one, which must have a single thread. Each
-/// worker runs one task after another. If a task ends its worker, another worker is started. If the
-/// system cannot start another process, the running workers do all tasks.
-/// @param ended  called in this process when a task ends, in any order
-/// @returns SIGINT or SIGTERM if it was received, else 0. After a signal, running tasks are killed
-///   and the others are not started.
+/// Runs the tasks in worker processes forked from this process, which must have a single thread.
+/// Each worker runs one task after another. If a worker ends while tasks are waiting, another
+/// worker is started. If the system cannot start another process, the running workers run all
+/// tasks.
+/// @param ended  called in this process when a task ends; tasks end in any order
+/// @returns SIGINT or SIGTERM if one of these signals was received, else 0. After a signal, running
+///   tasks are killed and waiting tasks are not started.
 [[nodiscard]] int run_in_processes(
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
@@ -60,11 +61,11 @@ void set_out_of_memory_exit(int status, const char* line);
 struct ProgramLimits {
   double wall_s = 120;
   std::size_t memory_bytes = 0;  ///< address space of each process; 0: no limit
-  /// Limit of the size of each file, and of all files of the folder together.
+  /// Limit of the size of each file, and of all files in the working folder together [bytes].
   std::size_t disk_bytes = std::size_t{1} << 30;
 };
 
-/// Returns the path of a program in the folders of PATH; empty if there is none.
+/// Returns the path of a program in the folders of PATH; empty if the program is not found.
 [[nodiscard]] std::string find_program(const std::string& name);
 
 /// Runs a program until it ends or exceeds a limit, and kills its remaining descendants. The
@@ -84,8 +85,8 @@ void kill_descendants();
 [[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t stop_above);
 
 /// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing
-/// this line on standard error. Exceptions: `run_in_processes` handles these signals itself, and
-/// signals that were ignored before remain ignored.
+/// `line` on standard error. However, `run_in_processes` handles these signals itself, and signals
+/// that are already ignored remain ignored.
 void exit_on_signals(const std::string& line);
 
 }  // namespace trammel::harness

@@ -22,7 +22,7 @@ void Progress::show(std::size_t done, std::size_t all) {
   last_shown_ = now;
   const std::chrono::duration<double> spent = now - start_;
   line_shown_ = terminal_;
-  const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: unknown
+  const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: unknown total
   std::fprintf(stderr, "%strammel: %zu%s %s, %.0f s%s", terminal_ ? "\r" : "", done, of_all.c_str(),
                items_.c_str(), spent.count(), terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);

@@ -7,7 +7,7 @@
 namespace trammel::harness {
 
 /// Progress on standard error: one line on a terminal, several lines in a log. A log is updated at
-/// most every five seconds, and so is a terminal if there is a single item or the total is unknown.
+/// most every five seconds. The same limit applies to a terminal if the total is one or unknown.
 class Progress {
  public:
   /// @param items  name of the counted items, in the plural: "runs"

@@ -6,7 +6,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Units, longest first, so that "_N_m" is not read as "_m".
+/// Suffixes of quantity names, with their units. Long suffixes precede short ones, so that "_N_m"
+/// is not read as "_m".
 const std::vector<std::pair<std::string, std::string>>& units() {
   static const std::vector<std::pair<std::string, std::string>> table = {
       {"_Hz_m3_per_kg", "Hz m^3/kg"},

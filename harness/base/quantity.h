@@ -16,7 +16,7 @@ struct Quantity {
 
 using Quantities = std::map<std::string, Quantity>;
 
-/// Name of a quantity without its part of the model, and its unit: "reaction_moment_N_m:A1" is
+/// Name of a quantity without unit and part of the model, and the unit: "reaction_moment_N_m:A1" is
 /// "reaction_moment" in "N m". The unit of a dimensionless quantity is "1".
 struct NameAndUnit {
   std::string name, unit;

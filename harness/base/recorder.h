@@ -34,7 +34,7 @@ class Recorder {
   }
   /// Records a missing number, such as a break in a curve, or the result of a parameter study at a
   /// value without solution. Files contain null for the number. A check of the quantity fails only
-  /// if it requires this number.
+  /// if the check uses this number.
   void add_missing_value(const std::string& name, const std::string& item) {
     quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
@@ -72,8 +72,8 @@ class EnergyRecorder {
     largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   }
   [[nodiscard]] double largest_kinetic_energy() const { return largest_kinetic_; }
-  /// Returns the largest change of the total energy, divided by the largest kinetic energy; 0
-  /// without motion.
+  /// Returns the largest change of the total energy, divided by the largest kinetic energy; 0 if
+  /// nothing moves.
   [[nodiscard]] double relative_drift() const {
     return largest_kinetic_ > 0 ? change_ / largest_kinetic_ : 0;
   }

@@ -27,7 +27,7 @@ class Rows {
   /// @param rows  an array of objects, one per row; each column shows the value of its key
   Rows(std::vector<Column> columns, const Json& rows);
 
-  /// @param cells  one cell per column: text, number, truth value, list of these, or null
+  /// @param cells  one cell per column: text, number, truth value, null, or a list of such values
   void add(std::vector<Json> cells);
   [[nodiscard]] bool empty() const { return rows_.empty(); }
 
@@ -35,7 +35,7 @@ class Rows {
   void print(std::ostream& out, const std::string& indent = "") const;
   /// Returns the rows as a JSON array with one object per row.
   [[nodiscard]] Json json() const;
-  /// Returns a line of keys, then a line for each row (RFC 4180), with all digits of the numbers.
+  /// Returns a line of keys, then a line for each row (RFC 4180).
   /// @param digits  significant digits of the numbers; 0: all
   [[nodiscard]] std::string csv(int digits = 0) const;
 

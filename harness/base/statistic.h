@@ -7,7 +7,7 @@
 
 namespace trammel::harness {
 
-/// Returns a statistic of numbers; NaN if there are none or one of them is not finite.
+/// Returns a statistic of numbers; NaN if the list is empty or contains a non-finite number.
 /// @param name  "max", "min", "max_abs", ... as in the schema
 [[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
 

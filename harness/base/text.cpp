@@ -46,7 +46,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     std::size_t distance = edit_distance(word, candidate);
     const bool contained = word.size() >= 3 && candidate.find(word) != std::string::npos;
     if (contained) distance = std::min<std::size_t>(distance, 2);
-    if (candidate.starts_with(word + "_")) distance = 1;  // a key without its unit
+    if (candidate.starts_with(word + "_")) distance = 1;  // the word lacks only the unit of a key
     if (distance < least) {
       least = distance;
       best = candidate;
@@ -63,7 +63,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 std::string unknown_name_message(const std::string& expected, const std::string& name,
                                  const std::vector<std::string>& candidates) {
   const std::string near = did_you_mean(name, candidates), all = join(candidates, "or");
-  return "expected " + expected + " (got '" + printable(name) + "')" +  // a short list is complete
+  return "expected " + expected + " (got '" + printable(name) + "')" +  // lists all names if few
          (near.empty() && !all.empty() && all.size() <= 160 ? "; expected " + all : near);
 }
 

@@ -6,11 +6,12 @@
 
 namespace trammel::harness {
 
-/// Returns the candidate closest to a misspelled word; empty if none is close.
+/// Returns the candidate closest to a misspelled word; empty if no candidate is similar.
 [[nodiscard]] std::string nearest_word(const std::string& word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns "; did you mean 'x'?" with the closest candidate, or an empty string if none is close.
+/// Returns "; did you mean 'x'?" with the closest candidate, or an empty string if no candidate is
+/// similar.
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& candidates);
 
@@ -29,7 +30,7 @@ namespace trammel::harness {
 /// Returns the shortest decimal number that is read back as the same double.
 [[nodiscard]] std::string shortest_decimal(double value);
 
-/// Formats a number with "%.*g"; returns "-" if it is not finite.
+/// Formats a number with "%.*g"; returns "-" if the number is not finite.
 [[nodiscard]] std::string rounded(double value, int digits = 6);
 
 /// Formats a fraction as a percentage: "12.3 %" for 0.123.
@@ -43,7 +44,7 @@ namespace trammel::harness {
 [[nodiscard]] std::string one_line(const std::string& text);
 
 /// Returns the text of a file that is embedded in the program.
-/// @throws std::logic_error  if there is no such file.
+/// @throws std::logic_error  if no embedded file has this name.
 [[nodiscard]] const std::string& embedded_text(const std::string& file);
 
 }  // namespace trammel::harness

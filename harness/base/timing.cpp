@@ -41,7 +41,7 @@ RelativeTime time_ratio(const std::vector<double>& times, const std::vector<doub
   std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
-  std::size_t outside = 0;  // number of ratios outside the interval on either side
+  std::size_t outside = 0;  // number of ratios below (and also above) the interval
   while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.02) ++outside;
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }

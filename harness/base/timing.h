@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Measurement of computing times under equal conditions, so that they can be compared.
+/// Measurement of computing times under equal conditions, so that the times can be compared.
 namespace trammel::harness {
 
 struct TimingOptions {
@@ -27,7 +27,7 @@ struct Timing {
 struct RelativeTime {
   double median = 0;
   /// Interval that contains the true median of the ratio with a probability of at least 98 %, for
-  /// any distribution of the times (sign test). For seven repeats it spans all ratios.
+  /// any distribution of the times (sign test). For seven repeats, the interval spans all ratios.
   double low = 0, high = 0;
 };
 
@@ -40,20 +40,20 @@ struct RelativeTime {
 
 /// Runs every function once to warm up, then all of them once in each repeat, in a new random
 /// order. Disturbances of the machine therefore affect the times of all functions alike.
-/// @param done  called after each repeat
+/// @param after_repeat  called after each repeat
 [[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                                    const TimingOptions& options,
                                                    const std::function<void()>& after_repeat);
 
-/// Time of one evaluation of a function. It is reported for information, and checks do not use it.
+/// Time of one evaluation of a function. Reports show this time, but checks do not use it.
 struct EvaluationTime {
   std::string name;             ///< name of the function, with '_' between words
   double wall_s = 0;            ///< time of one evaluation [s]
   std::size_t evaluations = 0;  ///< number of evaluations in the average
 };
 
-/// Measures the mean time of one evaluation. Rounds are repeated for at least 0.02 s.
-/// @param batch  performs `evaluations` evaluations
+/// Measures the mean time of one evaluation of a function. `batch` is repeated for at least 0.02 s.
+/// @param batch  evaluates the function `evaluations` times
 [[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
                                              const std::function<void()>& batch);
 

@@ -46,14 +46,14 @@ void require_exportable(const Document& document) {
   const JsonView place = analysis_place(document);
   if (!contains(kinds, analysis_kind(document)))
     throw place.error("the analysis " + analysis_kind(document) +
-                      " cannot be exported; expected another one, such as statics or modes");
+                      " cannot be exported; expected, for example, statics or modes");
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
     throw root["model"]["trajectory"].error("a trajectory cannot be exported; expected 'pose'");
   if (place.has("track")) throw place["track"].error("'track' is not exported; expected 'drives'");
 }
 
-/// Returns the JSON object of the analysis, with keys that switch each effect on or off as chosen.
+/// Returns the JSON object of the analysis, with keys that switch on exactly the effects `chosen`.
 Json stated_analysis(const Document& document, solver::Effects chosen) {
   Json analysis = document.value().at("analysis");
   if (!document.value().contains("effects")) return analysis;
@@ -101,7 +101,8 @@ std::set<std::string> lost_parts(const Document& document, const solver::Model& 
   return lost;
 }
 
-/// Returns the number of values of a quantity, or null if it is not known in advance.
+/// Returns the number of values of a quantity, or null if this number is unknown before the
+/// computation.
 Json length_of(const Document& document, const std::string& name) {
   const JsonView place = analysis_place(document);
   if (analysis_kind(document) == "statics") return 1;
@@ -109,7 +110,8 @@ Json length_of(const Document& document, const std::string& name) {
   return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
 }
 
-/// Returns the checks of this variant, and the checks by which other variants are compared with it.
+/// Returns the checks of this variant, and the checks that compare other variants with this
+/// variant.
 std::vector<Check> checks_that_look_at(const Document& document, const std::string& variant,
                                        const Case& given) {
   const std::vector<std::string> variants = given.variants();
@@ -207,8 +209,8 @@ Json mechanism_of(const Document& document) {
   return mechanism;
 }
 
-/// Lists the named nodes of a large motion under the key "nodes" if this key is absent. Otherwise
-/// the nodes that receive a name by the export would also be recorded.
+/// Lists the named nodes of a large motion under the key "nodes" if this key is absent. Without
+/// this list, the exported case would also record nodes that receive a name only by the export.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();

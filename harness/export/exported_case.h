@@ -13,14 +13,14 @@
 #include "solver/model/model.h"
 
 /// Exports cases for other codes, as one computation each. The exported case contains explicit
-/// nodes, members, loads and effects. These replace inheritance, patches, mesh options, tapers and
+/// nodes, members, loads and effects instead of inheritance, patches, mesh options, tapers and
 /// arcs. A manipulator at rest is also replaced by its nodes and members.
 namespace trammel::harness {
 
 /// Selects one computation of a case.
 struct ExportChoice {
   std::string variant = kBaseVariant;
-  std::string sweep = {};  ///< name of the sweep; empty: the only sweep
+  std::string sweep = {};  ///< name of the sweep; empty: the only sweep of the case
   std::optional<std::size_t> level = std::nullopt;
 };
 
@@ -37,11 +37,13 @@ struct ExportedScene {
 };
 [[nodiscard]] ExportedScene exported_scene(const Document& document);
 
-/// Returns the exported case file: model, analysis, and "export" with its origin and the requested
-/// quantities. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) is kept.
-/// Bodies, joints and a table of the path over time are added under "export". The case of a neural
-/// network whose samples are stated in the case is exported unchanged.
-/// @throws InputError  as `exported_scene`, and if a case file cannot express a part or a quantity.
+/// Returns the exported case file: model, analysis, and the key "export" with the origin of the
+/// case and the requested quantities. The manipulator along its path (kinematics, rigid dynamics,
+/// elastodynamics) is exported unchanged. Bodies, joints and a table of the path over time are
+/// added under "export". The case of a neural network whose samples are stated in the case is
+/// exported unchanged.
+/// @throws InputError  under the conditions of `exported_scene`, and if a case file cannot express
+///   a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 
 /// Writes the linear matrices of a case into a folder. A case with large displacement is linearized
@@ -51,7 +53,7 @@ struct ExportedScene {
 ///   T.mtx             matrix that yields all coordinates u = T q.
 ///   f.mtx             loads on the free coordinates q.
 ///   coordinates.csv   motion and node of each coordinate in u.
-///   mesh.vtu          mesh.
+///   mesh.vtu          finite element mesh.
 ///
 /// The format is Matrix Market in SI units. Symmetric matrices are stored as their lower triangles.
 /// @throws InputError  if the folder cannot be written, or for springs along a line and follower
@@ -70,7 +72,7 @@ struct WrittenNames {
 };
 
 /// Returns a model in the form of the key "model" of a case file.
-/// @param model  without the linear constraints of its sliders, which are in `joints`
+/// @param model  model without the linear constraints of sliders, which `joints` contains
 /// @throws ModelError  if a case file cannot express a part, or two parts have the same name.
 [[nodiscard]] Json model_json(solver::Model model,
                               const solver::large_motion::LargeMotionModel& joints,

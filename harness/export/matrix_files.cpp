@@ -35,7 +35,8 @@ std::string matrix_market(const SparseMatrix& matrix, bool symmetric, const char
          entries;
 }
 
-/// Returns a line for each entry of u: its number from 1, the motion, and the node or member end.
+/// Returns a CSV line for each coordinate in u: number (from 1), kind of motion, and node or member
+/// end.
 std::string coordinate_table(const solver::System& system) {
   std::vector<std::string> lines(solver::to_size(system.coordinates.size));
   const auto set = [&](Index number, const char* motion, const std::string& of) {

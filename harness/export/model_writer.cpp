@@ -34,7 +34,7 @@ double first_that(const std::array<double, 3>& candidates, const Gives& gives) {
 }
 
 /// Returns a second moment of area that reproduces both the stiffness and the rotary inertia
-/// exactly. If none exists, it reproduces the stiffness.
+/// exactly. If no such value exists, the result reproduces only the stiffness.
 double second_moment(const solver::Section& section, const solver::Material& material) {
   const auto candidates = quotients(section.EI, material.E);
   const auto stiff = [&](double I) { return material.E * I == section.EI; };
@@ -58,13 +58,14 @@ bool nearly(double a, double b) {
 /// Materials and sections of a built model as objects of a case file, each stored once by name.
 class SectionTable {
  public:
-  /// @param known  named materials of the case, which are reused for sections that they match to
-  ///     round-off
+  /// @param known  named materials of the case. A section whose properties agree up to round-off
+  ///     reuses such a material
   explicit SectionTable(std::vector<std::pair<std::string, solver::Material>> known)
       : materials_(std::move(known)), used_(materials_.size(), false) {}
 
   /// Returns the name of the section and adds the section if it is new. Area, second moment, shear
-  /// coefficient and half depth reproduce its stiffnesses to the last bit if possible.
+  /// coefficient and half depth reproduce the stiffnesses of the section to the last bit if
+  /// possible.
   [[nodiscard]] std::string name_of(const solver::Section& section);
   [[nodiscard]] std::string name_of(const solver::Material& material);
 
@@ -159,7 +160,7 @@ struct FieldWriter {
   [[nodiscard]] static bool is_empty(const Eigen::Vector2d& pair) { return pair.isZero(0); }
   [[nodiscard]] static bool is_empty(NodeNames<Index> node) { return node.indices < 0; }
 
-  /// Writes an enumeration as its word, and other types by JSON's own conversion.
+  /// Converts an enumeration to its word in case files, and other types as the JSON library does.
   template <class T>
   [[nodiscard]] static Json json_of(const T& value) {
     if constexpr (std::is_enum_v<T>) {
@@ -216,8 +217,8 @@ class Parts {
   std::set<std::string> names_;
 };
 
-/// Replaces tapered members by chains of single-element members with the properties of each
-/// element.
+/// Replaces tapered members by chains of uniform members, one per element. Each has the section at
+/// the middle of its element.
 void cut_tapers(Model& model) {
   const std::vector<solver::Member> members = std::exchange(model.members, {});
   for (const solver::Member& member : members) {
@@ -284,7 +285,8 @@ class ModelWriter {
     return std::move(writer.json);
   }
 
-  /// @param names  names of the first entries of `parts`, if their C++ type does not contain a name
+  /// @param names  names of the first `parts`. They are used if the C++ type of a part has no
+  ///   member `name`
   template <class T>
   void add(const char* kind, const std::vector<T>& parts,
            const std::vector<std::string>& names = {}) {
@@ -315,7 +317,7 @@ class ModelWriter {
     plates.put_into(parts_);
   }
 
-  /// Merges all supports of each node into one.
+  /// Merges all supports of a node into one support per node.
   void add_supports() {
     std::map<Index, std::array<bool, 3>> held;
     for (const solver::Support& support : model_.supports)
@@ -330,7 +332,8 @@ class ModelWriter {
     supports.put_into(parts_);
   }
 
-  /// Combines pairs of constraints into pins: u_a = u_b in x, and then in y.
+  /// Combines each two successive constraints of nodes a and b (u_a = u_b in x, then in y) into a
+  /// pin.
   [[nodiscard]] std::vector<Pin> pins() const {
     using Kind = solver::Coordinate::Kind;
     const auto ties = [](const solver::LinearConstraint& tie, Kind kind) {
@@ -345,13 +348,14 @@ class ModelWriter {
                           ties(all[i + 1], Kind::y) &&
                           all[i].terms[0].first.node == all[i + 1].terms[0].first.node &&
                           all[i].terms[1].first.node == all[i + 1].terms[1].first.node;
-      solver::require(is_pin, "a case file cannot express its constraint '" + all[i].name + "'");
+      solver::require(is_pin, "a case file cannot express the constraint '" + all[i].name + "'");
       pins.push_back({all[i].name, {all[i].terms[0].first.node, all[i].terms[1].first.node}});
     }
     return pins;
   }
 
-  /// Returns loads on nodes, then the forces of loads on edges, summed at their nodes.
+  /// Returns the nodal loads, followed by the equivalent nodal forces of edge loads, summed for
+  /// each node.
   [[nodiscard]] std::vector<solver::NodalLoad> loads() const {
     std::vector<solver::NodalLoad> loads = model_.loads;
     std::map<Index, Eigen::Vector3d> of_edges;

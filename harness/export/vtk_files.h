@@ -9,7 +9,7 @@
 
 namespace trammel::harness {
 
-/// Cell of a grid. The type is a number of VTK: 3 line, 5 triangle, 7 polygon, 22 six-node
+/// Cell of a grid. The type is the cell type of VTK: 3 line, 5 triangle, 7 polygon, 22 six-node
 /// triangle.
 struct VtkCell {
   std::vector<std::size_t> nodes;

@@ -27,7 +27,7 @@ using Ending = ProcessOutcome::Termination;
 constexpr int kCannot = 4;  // exit status of an adapter whose code does not support the case
 constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // maximum size of files kept per call
 
-/// Returns the last non-blank line of a program's output, as a suffix of a message.
+/// Returns ": " and the last non-blank line of a program's output; empty if the output is blank.
 std::string last_line(const std::string& output) {
   std::string line, last;
   for (std::istringstream lines(output); std::getline(lines, line);)

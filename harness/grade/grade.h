@@ -19,7 +19,7 @@ struct Adapter {
 
 /// Splits a command into words. The command is an executable file, or a program of the PATH with
 /// arguments. Words that name files become absolute, because each call runs in another folder.
-/// @throws InputError  if there is no such program.
+/// @throws InputError  if the program does not exist or is not executable.
 [[nodiscard]] std::vector<std::string> split_adapter_command(const std::string& command);
 
 /// Returns a solver that runs an adapter for a case or variant. If the adapter reports the order of
@@ -27,11 +27,12 @@ struct Adapter {
 /// order is checked.
 [[nodiscard]] OtherSolver adapter_solver(const Adapter& adapter);
 
-/// Reads the RESULT.json of an adapter into status, reason, quantities and solver. Missing
+/// Reads the RESULT.json of an adapter into status, reason, quantities and solver of `run`. Missing
 /// quantities are not an error.
-/// @param requested  "export" of the exported case: names, units and lengths of the quantities.
+/// @param requested  value of the key "export" of the exported case: names, units and lengths of
+///   the quantities.
 /// @throws InputError  if the file is missing, larger than 64 MiB, not JSON or violates its schema.
-///     Also throws for an unknown quantity, unit or length.
+///     Also throws for an unknown quantity, and for a wrong unit or number of values.
 void read_adapter_answer(const std::filesystem::path& file, const Json& requested, Run& run);
 
 }  // namespace trammel::harness

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the keys that a case inherits from an extended case: those that define the computation,
-/// but no checks.
+/// Returns the part of an extended case that the extending case inherits: the keys that define the
+/// computation, without checks.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"})
@@ -41,7 +41,7 @@ Json inherited(const Json& base) {
 void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
                       std::vector<fs::path> seen) {
   const Json json = read_json(file);
-  if (!json.is_object()) throw InputError(file.string(), "", "expected a case as JSON object");
+  if (!json.is_object()) throw InputError(file.string(), "", "expected a JSON object of a case");
   seen.push_back(fs::weakly_canonical(file));
   if (const auto extends = json.find("extends"); extends != json.end()) {
     if (!extends->is_string())
@@ -273,7 +273,7 @@ std::vector<Level> sweep_levels(const Document& variant, const JsonView& sweep) 
 
 namespace {
 
-using Lengths = std::set<std::pair<double, std::string>>;  // lengths [m] with their pointers
+using Lengths = std::set<std::pair<double, std::string>>;  // lengths [m] with their JSON pointers
 
 /// Warns about the largest length if it is more than a hundred times the second largest length.
 void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warnings) {

@@ -22,7 +22,8 @@ struct Case {
     return document.value().at("title").get<std::string>();
   }
   [[nodiscard]] std::vector<std::string> labels() const;
-  /// Returns the names of all variants: "base" (no patch), then those in the order of the file.
+  /// Returns the names of all variants: "base" (no patch), then the variants in the order of the
+  /// file.
   [[nodiscard]] std::vector<std::string> variants() const;
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };
@@ -35,14 +36,14 @@ inline constexpr const char* kBaseVariant = "base";
 [[nodiscard]] Case load_case(const std::filesystem::path& file, const Catalogue& catalogue);
 
 /// Returns the case with the variant's patch applied. The result has no key "variants", and its
-/// "description" is that of the variant.
+/// "description" is the description of the variant.
 /// @throws InputError  for an unknown name of a variant, or if the patched case violates the
 /// schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 
 /// Returns warnings about numbers that probably have a wrong unit: angles above 2 pi in a key
-/// "..._rad", and coordinates or lengths that exceed all others more than a hundredfold. Each
-/// warning contains the JSON pointer of the number and the likely unit.
+/// "..._rad", and coordinates or lengths that exceed all other lengths more than a hundredfold.
+/// Each warning contains the JSON pointer of the number and the likely unit.
 [[nodiscard]] std::vector<std::string> unit_warnings(const Document& document);
 
 /// @param pointer  text in the document that is itself a JSON pointer: "/model/elements"
@@ -53,8 +54,7 @@ void require_pointer(const Document& document, const JsonView& pointer);
 [[nodiscard]] Json patch_setting_value(const Json& document, const std::string& pointer,
                                        const Json& value);
 
-/// One level of a parameter sweep: the value of the parameter, and the case in which the patch has
-/// set this value.
+/// One level of a parameter sweep: the value of the parameter, and the case with this value.
 struct Level {
   double parameter = 0;
   Document document;

@@ -44,7 +44,7 @@ Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(fol
       files_, [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice == files_.end()) return;
   throw InputError(twice[1].second, "/id",
-                   "expected a unique name of the case (got it also in " + twice->second + ")");
+                   "expected a unique case name (the same name is in " + twice->second + ")");
 }
 
 bool Catalogue::has_analysis(const fs::path& file, int depth) const {
@@ -96,7 +96,7 @@ fs::path Catalogue::find_base_case(const std::string& name_or_file,
   if (fs::is_regular_file(file, error)) return file;
   if (fs::path found = file_of_name(name_or_file); !found.empty()) return found;
   throw InputError(extending_file.string(), "/extends",
-                   unknown_name_message("a file relative to this one or a case of the catalogue",
+                   unknown_name_message("a catalogue case or a path relative to this file",
                                         name_or_file, names()));
 }
 

@@ -9,8 +9,8 @@
 
 namespace trammel::harness {
 
-/// Catalogue of all case files below a folder. The folder is searched once, on construction; that
-/// of the installation is searched once for all objects.
+/// Catalogue of all case files below a folder. The folder is searched on construction. The folder
+/// of the installation is searched only once per process.
 class Catalogue {
  public:
   /// Lists the case files of the installation.
@@ -26,8 +26,8 @@ class Catalogue {
   /// @throws InputError  if the case does not exist. The message suggests the most similar name.
   [[nodiscard]] std::filesystem::path find_case(const std::string& name_or_file) const;
 
-  /// Returns the case file to which the key "extends" of the file `extending_file` refers, by a
-  /// path relative to `extending_file` or by a name in the catalogue.
+  /// Returns the case file to which the key "extends" of `extending_file` refers: a path relative
+  /// to `extending_file` or a name in the catalogue.
   /// @throws InputError  if the case file does not exist.
   [[nodiscard]] std::filesystem::path find_base_case(
       const std::string& name_or_file, const std::filesystem::path& extending_file) const;
@@ -49,7 +49,7 @@ class Catalogue {
 [[nodiscard]] bool is_in_catalogue(const std::filesystem::path& file);
 
 /// Loads a case, given its name in the catalogue or its path.
-/// @throws InputError  as Catalogue::find_case and load_case.
+/// @throws InputError  under the conditions of Catalogue::find_case and load_case.
 [[nodiscard]] Case load_named_case(const std::string& name_or_file);
 
 }  // namespace trammel::harness

@@ -21,7 +21,8 @@ void require_variant(const JsonView& place, const std::vector<std::string>& vari
   throw place.error(unknown_name_message("a variant of the case", name, variants));
 }
 
-/// Returns the present key. Exactly one of the alternative `keys` must be present.
+/// Returns the only one of the alternative `keys` that the JSON object contains. Rejects an object
+/// that contains none or several of the keys.
 std::string exactly_one(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
@@ -99,8 +100,8 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-/// Rejects a known discrepancy if the allowed intervals of all entries contain zero, because
-/// agreement would go unnoticed.
+/// Rejects a known discrepancy if the allowed intervals of all entries contain zero, because an
+/// agreement would then not be detected.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;

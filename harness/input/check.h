@@ -19,8 +19,7 @@ enum class Measure { relative, absolute, ratio, value };
 
 using results::Expectation;
 
-/// Interval that must contain the number limited by a check. An interval without a limit on one
-/// side has an infinite limit there.
+/// Interval that must contain the number limited by a check. A missing limit is infinite.
 struct Window {
   double low = 0, high = 0;
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
@@ -43,7 +42,7 @@ struct OrderCriterion {
   /// Predicted leading term of the relative discretization error (key "leading_term" of a check).
   struct LeadingTerm {
     double coefficient = 0, within = 0;
-    std::string share;  ///< reference: beam's share in the modal mass; empty: 1
+    std::string share;  ///< id of the reference with the beam's share of the modal mass
     std::string pointer;
   };
   std::string sweep;
@@ -70,14 +69,14 @@ struct Check {
   std::vector<std::size_t> index, reference_index;  ///< indices of compared values; empty: all
   Role role = Role::verification;
   Measure measure = Measure::relative;
-  std::vector<Window> windows;  ///< allowed intervals: one for all values, or one each
+  std::vector<Window> windows;  ///< allowed intervals: one for all values, or one per value
   bool symmetric = false;       ///< true for a tolerance t, with the window [-t, t]
   Expectation expectation = Expectation::agrees;
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  /// Expected verdicts of the ASME V&V 20 comparisons, one per value, as the case records them;
-  /// empty: none are recorded.
+  /// Expected verdicts of the ASME V&V 20 comparisons, one per value, as recorded in the case;
+  /// empty if the case records no verdicts.
   std::vector<std::string> validation_verdicts;
   std::string pointer;  ///< JSON pointer of the check in the case
 

@@ -22,14 +22,16 @@ struct Origin {
 /// remove keys when the combined patch is applied.
 void compose_patches(Json& patch, const Json& later);
 
-/// A JSON document made of layers, each a merge patch (RFC 7386) over the previous ones. It records
-/// the file of each value, so that messages refer to the place written by the user.
+/// A JSON document made of layers, each a merge patch (RFC 7386) over the previous layers. The
+/// document records the file of each value, so that messages refer to the file and key that the
+/// user wrote.
 class Document {
  public:
   /// Returns a document of one JSON value. Nulls are kept and do not remove keys.
   [[nodiscard]] static Document from_json(const std::string& file, const Json& json);
 
-  /// Applies a merge patch. A null removes its key, except inside "variants", which has patches.
+  /// Applies a merge patch. A null removes its key, except inside "variants", which contains
+  /// patches.
   /// @param origin  JSON pointer of the patch in `file`; empty if the patch is the complete file
   void apply_patch(const std::string& file, const std::string& origin, const Json& patch);
   /// Applies a patch built from one value of a sweep. Error messages refer to this value in `file`.
@@ -38,10 +40,11 @@ class Document {
   [[nodiscard]] const Json& value() const { return value_; }
 
   /// Returns the file in which a value was last written, and its pointer in this file. If no file
-  /// contains the value, returns the file of the innermost object around it.
+  /// contains the value, returns the file of the innermost object around the value.
   [[nodiscard]] Origin origin(const std::string& pointer) const;
 
-  /// Returns an error at a value, with the file and pointer at which the value was written.
+  /// Returns an error about the value at `pointer`, with the file and pointer at which the value
+  /// was written.
   [[nodiscard]] InputError error(const std::string& pointer, const std::string& message) const;
 
   /// @throws InputError  if the document violates the schema with this name.

@@ -33,7 +33,7 @@ class JsonView {
   [[nodiscard]] std::optional<JsonView> find(const std::string& key) const;
   /// Returns the entries of an object with their names, or of an array with their indices as names.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries() const;
-  /// Returns the entries of the object or array at a key; none if the key is missing.
+  /// Returns the entries of the object or array at a key; an empty list if the key is missing.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries(const std::string& key) const;
   [[nodiscard]] std::size_t size() const { return json_->size(); }
 
@@ -55,7 +55,8 @@ class JsonView {
     return (*this)[key].get<std::string>();
   }
 
-  /// Returns the indices stated at a key as one number or a list; none if the key is missing.
+  /// Returns the indices stated at a key as one number or a list; an empty list if the key is
+  /// missing.
   [[nodiscard]] std::vector<std::size_t> indices(const std::string& key) const;
 
   [[nodiscard]] const Json& json() const { return *json_; }

@@ -66,8 +66,8 @@ class References {
   /// @throws InputError  if no reference has this name.
   [[nodiscard]] std::string find(const std::string& name, const std::string& case_file,
                                  const JsonView& id) const;
-  /// Returns the bibliographic source with a key: from the bibliography in the folder of the
-  /// reference's file, else from the bibliography of the catalogue.
+  /// Returns the bibliographic source with the given key: from the bibliography in the folder of
+  /// the reference's file, else from the bibliography of the catalogue.
   [[nodiscard]] references::Source source(const std::string& key, const std::string& file) const;
   /// Returns the place "FILE#/ID" of a reference of the catalogue; empty if no file has the id.
   [[nodiscard]] std::string find_in_catalogue(const std::string& id) const;
@@ -76,7 +76,7 @@ class References {
   mutable std::vector<std::string> catalogue_files_;
   mutable std::vector<Key> catalogue_keys_;
   mutable std::map<std::string, Family> families_;
-  mutable std::map<std::pair<std::string, std::string>, std::string> places_;  // by case and id
+  mutable std::map<std::pair<std::string, std::string>, std::string> places_;  // by case file, id
   mutable std::map<std::string, CitedReference> read_;                         // by place
   mutable std::set<std::string> absent_;  // places without a reference
 };

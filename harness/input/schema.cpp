@@ -75,8 +75,8 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
          });
 }
 
-/// Walks through a document and its schema in parallel and keeps the most deeply nested value that
-/// violates its rules. That value is the cause; its containers only repeat the violation.
+/// Compares a document with its schema and records the most deeply nested value that violates a
+/// schema rule. Objects and arrays around this value only repeat the violation.
 class Checker {
  public:
   explicit Checker(const SchemaRule& root) : root_(root) {}

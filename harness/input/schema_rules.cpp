@@ -168,7 +168,7 @@ std::string pointer_to(const std::vector<std::string>& path) {
   return pointer.to_string();
 }
 
-/// Returns the required keys of an object, including those on which its other keys depend.
+/// Returns the required keys of an object, including keys that other keys of the object require.
 std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {

@@ -39,7 +39,8 @@ using SchemaPool = rapidjson::MemoryPoolAllocator<SchemaAllocator>;
 using SchemaRule = rapidjson::GenericValue<rapidjson::UTF8<>, SchemaPool>;
 using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool, SchemaAllocator>;
 
-/// Returns the value of a keyword of a JSON schema, such as "minimum"; null if it is absent.
+/// Returns the value of a keyword of a JSON schema, such as "minimum"; null if the keyword is
+/// absent.
 [[nodiscard]] const SchemaRule* keyword(const SchemaRule& rule, const char* name);
 
 /// Loads a schema of cases/schema. Each schema is read once per process.

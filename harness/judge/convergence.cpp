@@ -101,8 +101,8 @@ class ConvergenceStudy {
     return last * std::log(h_[k - 2] / h_[k - 1]) >= before * std::log(h_[k - 1] / h_[k]);
   }
 
-  /// Converged value, extrapolated from a refinement level and the previous levels, with its safety
-  /// factor.
+  /// Converged value, extrapolated from the values on successive refinement levels, and the safety
+  /// factor of its uncertainty.
   struct Expected {
     double value = kNaN, factor = 3;
   };
@@ -154,7 +154,7 @@ class ConvergenceStudy {
       const auto [value, factor] = expected(k);
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
-      // Each level yields an extrapolated value. The level is used whose extrapolated value has the
+      // Each level yields an extrapolated value. The result is the extrapolated value with the
       // smallest sum of round-off error and change from the previous level.
       const double from = std::isfinite(before) ? before : v_[k];
       const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
@@ -179,7 +179,7 @@ class ConvergenceStudy {
   }
 
   /// Fits the two-term law a h^p + b h^q to the errors if two orders of convergence mix.
-  /// @returns true if two orders mix
+  /// @returns true if the case states two orders of convergence
   bool fit_two_orders() {
     if (!series_.theory_order || !series_.lower_order) return false;
     const Number reference = series_.exact ? series_.exact : series_.richardson;
@@ -201,8 +201,8 @@ class ConvergenceStudy {
     in_range_.assign(count(), false);
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
-      // The round-off error is relative to the values v_. If the values are errors themselves,
-      // their relative size is 1.
+      // Round-off errors are relative to the values v_. If the values are errors themselves, the
+      // error relative to v_ is 1.
       const double clear = series_.is_error ? 1.0 : error_[k];
       at_floor_[k] = clear <= kRoundoffMargin * roundoff_[k];
     }
@@ -251,7 +251,7 @@ using results::TwoTermLaw;
 
 namespace {
 
-/// Fits a and b of the two-term law to selected levels by least squares of
+/// Fits a and b of the two-term law to the errors on selected levels by least squares of
 ///   1 = (a h^p + b h^q) / error.
 class Fit {
  public:

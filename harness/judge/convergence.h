@@ -34,8 +34,8 @@ inline constexpr double kRoundoffMargin = 100;
 /// Required fraction of refinement levels whose uncertainty band contains the exact value (hit
 /// rate). The bands claim a coverage of about 95 %.
 inline constexpr double kMinHitRate = 0.95;
-/// Limit of the median ratio of uncertainty band to true error. The limit is the larger of Roache's
-/// safety factors. It applies if no observed order is close to the theoretical order.
+/// Limit of the median ratio of uncertainty band to true error: the larger of Roache's safety
+/// factors. This factor applies if no observed order is close to the theoretical order.
 inline constexpr double kMaxMedianRatio = 3;
 /// Minimum number of refinement levels for a judgment of the uncertainty bands. With fewer levels,
 /// a single band without the exact value would decide the result.
@@ -60,7 +60,7 @@ struct TwoTermOrders {
 
 /// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable refinement
 /// levels. The coarsest levels, whose errors contain further terms, are removed one by one until
-/// the largest relative residual is at most `within`. At least three levels remain.
+/// the largest relative residual is at most `max_residual`. At least three levels remain.
 /// @param error   signed error on each refinement level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels

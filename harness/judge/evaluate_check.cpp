@@ -13,14 +13,14 @@ namespace trammel::harness {
 namespace {
 
 /// Maximum number of entries of a quantity that a check reports one by one. If there are more
-/// entries, only the worst is reported.
+/// entries, only the worst entry is reported.
 constexpr std::size_t kMaxEntries = 16;
 
 /// Exception with the reason why the computed and the expected values of a check cannot be
 /// compared.
 struct NotComparable {
   std::string message;
-  bool is_missing = false;  ///< the requested quantity is missing
+  bool is_missing = false;  ///< true if the requested quantity is missing
 };
 
 std::vector<std::string> names_of(const Quantities& quantities) {
@@ -29,8 +29,8 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   return names;
 }
 
-/// Lists the names of the available quantities without the part after the colon: " (known here:
-/// frequency_Hz and ...)".
+/// Lists the names of the available quantities without the part after the colon: " (computed
+/// quantities: frequency_Hz and ...)".
 std::string known_kinds(const Quantities& quantities) {
   constexpr std::size_t most = 12;
   std::vector<std::string> kinds;
@@ -43,7 +43,7 @@ std::string known_kinds(const Quantities& quantities) {
     kinds.resize(most);
     kinds.emplace_back("more");
   }
-  return " (known here: " + join(kinds, "and") + ")";
+  return " (computed quantities: " + join(kinds, "and") + ")";
 }
 
 const std::vector<double>& find_quantity(const Quantities& quantities, const std::string& name,
@@ -51,7 +51,7 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
   const bool has_entry = quantities.contains(name.substr(0, name.find(':')));
-  const std::string guess = has_entry ? "; the key 'index' selects an entry, from 0"
+  const std::string guess = has_entry ? "; the key 'index' selects a value, from 0"
                                       : did_you_mean(name, names_of(quantities));
   throw NotComparable{
       "no quantity '" + name + "'" + where + (guess.empty() ? known_kinds(quantities) : guess),
@@ -75,7 +75,7 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
 struct ComparedValues {
   std::vector<double> computed;
   std::vector<double> expected;  ///< expected values; empty if the check is a bound
-  /// Absolute uncertainty of each expected value; empty if there is none.
+  /// Absolute uncertainty of each expected value; empty if the expected values have no uncertainty.
   std::vector<double> uncertainty;
 };
 
@@ -112,7 +112,7 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   ComparedValues pairs;
   pairs.computed =
       pick(find_quantity(context.quantities, check.quantity, ""), check.index, check.quantity);
-  if (pairs.computed.empty()) throw NotComparable{check.quantity + " has no entries"};
+  if (pairs.computed.empty()) throw NotComparable{check.quantity + " has no values"};
   if (!check.statistic.empty()) pairs.computed = {statistic_of(check.statistic, pairs.computed)};
   if (!check.reference.empty()) pair_with_reference(check, context, pairs);
   if (!check.against_variant.empty() || !check.against_quantity.empty())
@@ -139,7 +139,8 @@ std::string outside(const Check& check, double value, const Window& window) {
   return where;
 }
 
-/// Returns the tolerance window, widened on both sides by half a unit of the solver's last digit.
+/// Returns the tolerance window, widened on both sides by half a unit of the last digit that the
+/// solver prints.
 Window widened(const Window& window, const Check& check, const CheckResult& entry, int digits) {
   if (*entry.computed == 0) return window;
   const double leading = std::floor(std::log10(std::abs(*entry.computed)));
@@ -150,7 +151,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
 }
 
 /// Sets the verdict of an entry of a check by its tolerance. The computed and expected values must
-/// be set before.
+/// be set before the call.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
   const double expected = check.has_comparison_target() ? *entry.expected : 0;
@@ -195,7 +196,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
   CheckResult worst = *std::ranges::min_element(entries, results::is_worse_than);
   worst.message = "worst of " + std::to_string(entries.size()) +
-                  (worst.message.empty() ? "" : ": " + worst.message);
+                  (worst.message.empty() ? " entries" : " entries: " + worst.message);
   return {worst};
 }
 
@@ -252,7 +253,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   if (check.negative_control && context.other_solver != nullptr) {
-    CheckResult control = failed_check_result(check, "this check tests only trammel's judgment");
+    CheckResult control = failed_check_result(check, "this check tests only trammel's verdicts");
     control.verdict = Verdict::not_given;
     return {control};
   }

@@ -60,8 +60,8 @@ class OrderCheckEvaluator {
     return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
-  /// Returns true if the refinement levels are insufficient for a judgment of the order. Then sets
-  /// the message of `check_result`.
+  /// Returns true if the refinement levels are insufficient for a judgment of the order. In this
+  /// case, sets the message of `check_result`.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
@@ -82,7 +82,7 @@ class OrderCheckEvaluator {
     check_result.tolerance = {-limit, limit, true};
     check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
     if (check_result.message.empty())
-      check_result.message = fmt::format("{} meshes qualify", meshes_);
+      check_result.message = fmt::format("{} meshes qualify for the order", meshes_);
   }
 
   [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
@@ -96,7 +96,7 @@ class OrderCheckEvaluator {
 
   /// Returns the value with the largest distance from `target` over the refinement levels that
   /// qualify. These are the levels in the asymptotic range or, if the check states a wave number,
-  /// on fine meshes.
+  /// the levels with sufficiently fine meshes.
   template <class Value>
   double worst(double target, const Value& value, CheckResult& check_result) const {
     double farthest = kNaN;
@@ -106,7 +106,7 @@ class OrderCheckEvaluator {
       if (std::isnan(here)) continue;
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
-        check_result.message = fmt::format("{} meshes qualify, the worst is {}", meshes_,
+        check_result.message = fmt::format("{} meshes qualify, the worst is mesh {}", meshes_,
                                            shortest_decimal(*found_.parameter[k]));
       }
     }
@@ -120,7 +120,7 @@ class OrderCheckEvaluator {
     const double theory = *found_.theory_order;
     const std::optional<double> fitted = log_log_slope(found_.size, found_.error, qualifies_);
     if (!fitted) {
-      check_result.message = "fewer than two meshes qualify";
+      check_result.message = "fewer than two meshes qualify for the order";
       return check_result;
     }
     check_result.computed = *fitted;
@@ -128,7 +128,7 @@ class OrderCheckEvaluator {
         theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? *found_.order[k] : kNaN; },
         check_result);
     check_result.message =
-        fmt::format("{} meshes qualify; the worst order between two of them is {}", meshes_,
+        fmt::format("{} meshes qualify; the worst order of two successive ones is {}", meshes_,
                     shortest_decimal(farthest));
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kStep = 1.0 / 16;
 
-/// Returns a random number in [0, 1), identical in all libraries unlike standard distributions.
+/// Returns a random number in [0, 1). Unlike std::uniform_real_distribution, it yields the same
+/// sequence with every C++ library.
 double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-53;
 }

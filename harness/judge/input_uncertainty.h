@@ -56,9 +56,10 @@ inline constexpr double kCoverageFactor = 2;
 /// uncertainties of each comparison, and u_input of its `all_inputs`, must be set before.
 ///
 /// If symmetry of the model implies a repeated value (equal within 1e-6), the reference must repeat
-/// it. If the reference prints values that differ by more than its digits allow, and the model's
-/// value is between them, the reference contradicts itself: no model with this symmetry can match
-/// it. If the model's value is outside the printed range, the verdict is a model error.
+/// this value. If the reference prints values that differ by more than its digits allow, and the
+/// model's value is between them, the reference contradicts itself: no model with this symmetry can
+/// match the reference. If the model's value is outside the printed range, the verdict is a model
+/// error.
 void evaluate_validation_row(std::span<results::Comparison> row);
 
 }  // namespace trammel::harness

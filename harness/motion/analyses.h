@@ -8,8 +8,8 @@
 /// neural networks that approximate the dynamics.
 namespace trammel::harness {
 
-/// Computes inverse kinematics, distances from singularities and the torques that balance the
-/// loads.
+/// Computes inverse kinematics, distances from singularities, and the torques of the active joints
+/// that balance the loads.
 AnalyseStep analyze_kinematics;
 
 /// Computes the response in time: output quantities at sample times, their peaks, and energies.
@@ -17,7 +17,7 @@ AnalyseStep analyze_transient;
 
 /// Computes amplitudes of the steady response over a range of frequencies, and their peaks.
 AnalyseStep analyze_harmonic;
-/// Computes the motion of a model with large displacement by geometrically exact elements.
+/// Computes the motion of a model with large displacements, by geometrically exact elements.
 AnalysePath analyze_large_motion;
 
 /// Computes torques, joint angles, powers and energies of the rigid manipulator along its path.
@@ -43,9 +43,10 @@ AnalyseCase analyze_grnn_samples;
 [[nodiscard]] solver::ElastodynamicsOptions read_model_independent_options(
     const JsonView& analysis);
 
-/// Reads the motion of an elastodynamics case, with the chosen effects.
-/// @throws InputError  if the model has parts other than the manipulator and loads at P, or has no
-///   trajectory of at least two points.
+/// Reads the options of an elastodynamics case: path, loads at P, damping, time steps and selected
+/// physical effects.
+/// @throws InputError  if the model has parts other than the manipulator and loads at P, or if it
+///   has no trajectory of at least two points.
 [[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics_options(
     const JsonView& analysis, const CaseModel& case_model);
 

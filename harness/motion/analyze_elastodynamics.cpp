@@ -40,7 +40,7 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
 /// Records the energies and the drift of their sum, relative to the largest energy. The drift is
 /// not recorded for quasi-static motion, or if the work of loads and actuators is not computed.
 /// Modal superposition does not compute this work under varying loads. Time integration does not
-/// compute it for moving inextensible links without gyroscopic terms.
+/// compute this work for moving inextensible links without gyroscopic terms.
 void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
                    Recorder& record) {
   quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);
@@ -58,8 +58,8 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
     record.add("energy_drift", (energy.total() - solution.energy.front().total()) / size);
 }
 
-/// Records the distance between the positions of P in two solutions at each sample, relative to the
-/// largest deflection of P in the first solution.
+/// Records the distance between the positions of P in the solutions `a` and `b` at each sample,
+/// relative to the largest deflection of P in `a`.
 void record_distance(const char* name, const Eigen::MatrixX2d& a, const Eigen::MatrixX2d& b,
                      Recorder& record) {
   const double size = a.rowwise().norm().maxCoeff();
@@ -75,7 +75,7 @@ solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& option
 }
 
 /// Records the change of the deflection if the time step is halved. If the platform is at rest,
-/// also records the true integration error, by comparison with modal superposition.
+/// also records the error of the time integration, compared with exact modal superposition.
 void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
@@ -106,13 +106,13 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;
-  if (summary.accepted > 0) {  // neither quasi-static motion nor modal superposition
+  if (summary.accepted > 0) {  // the solution was computed by time integration
     record.add("steps", summary.accepted);
     record.add("rejected_steps", summary.rejected);
     record.add("smallest_step_s", summary.smallest_step);
     record.add("largest_step_s", summary.largest_step);
   }
-  if (std::isnan(effects.first_frequency)) return;  // none for quasi-static or large motion
+  if (std::isnan(effects.first_frequency)) return;  // not computed for quasi-static or large motion
   if (summary.accepted > 0) record.add("step_residual", summary.largest_residual);
   record.add("first_frequency_Hz", effects.first_frequency);
   record.add("damping_ratio", effects.damping_ratio);
@@ -171,7 +171,7 @@ solver::ElastodynamicsOptions read_elastodynamics_options(const JsonView& analys
     const bool rates = approximations->get("transformation_rate_terms", false);
     if (rates && !approximations->get("elastic_inertia", true))
       throw(*approximations)["transformation_rate_terms"].error(
-          "these terms are a part of the elastic inertia, and require 'elastic_inertia': true");
+          "the terms are part of the elastic inertia; expected also 'elastic_inertia': true");
   }
   if (options.modal_superposition && !solver::is_at_rest(options.path))
     throw analysis["modal_superposition"].error(

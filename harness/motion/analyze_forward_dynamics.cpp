@@ -13,9 +13,9 @@ double turned(double from, double to) {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-/// Records the energy drift, relative to the largest kinetic energy. Constant torques and a
-/// constant load have potentials. Therefore kinetic plus potential energy minus the work done since
-/// the start is conserved.
+/// Records the drift of the energy, relative to the largest kinetic energy. The energy is kinetic
+/// plus potential energy minus the work of torques and load since the start. It is conserved,
+/// because constant torques and a constant load do work that depends only on the pose.
 void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
                    const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
   std::vector<double> energies;
@@ -79,7 +79,7 @@ StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& c
     record.add("motion_velocity_x_m_per_s", moved.velocity.x());
     record.add("motion_velocity_y_m_per_s", moved.velocity.y());
     record.add("motion_velocity_phi_rad_per_s", moved.velocity.z());
-    if (given) continue;  // stated torques do not belong to the path
+    if (given) continue;  // torques stated in the case do not follow the path
     const solver::TrajectoryPoint& nominal = case_model.motion[step];
     record.add("position_error_m",
                std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));

@@ -35,12 +35,12 @@ struct GrnnOutput {
 struct GrnnSamples {
   Eigen::MatrixXd inputs;           ///< one row per sample
   Eigen::MatrixXd outputs;          ///< one row per sample
-  std::vector<GrnnOutput> columns;  ///< meaning of each column of the outputs
+  std::vector<GrnnOutput> columns;  ///< description of each column of `outputs`
 };
 
 /// Samples as in Varalakshmi and Srinivas (2017), Section 4.3, one for each point of the path.
 /// Inputs are the torques of the inverse dynamics. Outputs are the angles and velocities of the
-/// active joints. Angles do not jump by 2 pi.
+/// active joints. Angles are continuous in time: they do not jump by 2 pi.
 struct PathSamples {
   solver::Outcome outcome;  ///< outcome of the first point without a solution
   GrnnSamples samples;
@@ -53,7 +53,7 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
   Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
                          static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Json& row = rows.json()[i];  // avoids up to 100,000 objects JsonView
+    const Json& row = rows.json()[i];  // avoids a JsonView for each of up to 100,000 numbers
     if (row.size() != columns)
       throw rows[i].error("expected " + std::to_string(columns) +
                           " numbers as in the first row (got another count)");
@@ -106,7 +106,8 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
 /// Replaces the joint angles and velocities in the samples by those of a manipulator with
 /// geometrically exact flexible links under the same torques.
 /// @param place  "flexible_links" of the case
-/// @throws InputError  as `add_tracking`, and if points of the path are not evenly spaced.
+/// @throws InputError  if the manipulator cannot track the path (see `add_tracking`), or if the
+///   points of the path are not evenly spaced in time.
 void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
   solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
@@ -191,7 +192,7 @@ struct OutputScales {
     for (solver::Index j = 0; j < outputs.cols(); ++j) {
       const Eigen::ArrayXd centered = outputs.col(j).array() - outputs.col(j).mean();
       deviation(j) = std::sqrt(centered.square().mean());
-      if (range(j) == 0) range(j) = deviation(j) = 1;  // no division by 0 for a constant output
+      if (range(j) == 0) range(j) = deviation(j) = 1;  // avoids division by 0 for a constant output
     }
   }
 };
@@ -244,8 +245,8 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
 }
 
 /// Measures the computing time of predictions at every point of the path, in a batch and one by
-/// one. Also measures the replaced computations: the motion at the next point from the torques, and
-/// the torques from the motion.
+/// one. Also measures the computations that the network replaces: forward dynamics to the next
+/// point of the path, and inverse dynamics.
 std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
                                                  const solver::RigidManipulator& manipulator,
                                                  const CaseModel& case_model,
@@ -298,7 +299,7 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
 }
 
 /// Records the platform's position for predicted angles of the active joints, by forward kinematics
-/// from its true pose. The position is NaN if the platform cannot be assembled.
+/// that starts from the true pose. The position is NaN if the platform cannot be assembled.
 void record_positions(const solver::ManipulatorGeometry& geometry, const CaseModel& case_model,
                       const Eigen::MatrixXd& predicted, Recorder& record) {
   for (std::size_t k = 0; k < case_model.motion.size(); ++k) {

@@ -68,7 +68,7 @@ class HarmonicScene {
     std::optional<std::vector<double>> resonances = frequencies_in_range();
     if (!resonances) {
       add_warning(warnings, {"the number of natural frequencies found in the range", 0, "",
-                             "a narrow peak between two of 65 frequencies may have been missed"});
+                             "a narrow peak between two of 65 sampled frequencies may be missed"});
       const Eigen::VectorXd damped = response->damped_mode_frequencies();
       resonances.emplace(damped.begin(), damped.end());
     }
@@ -95,17 +95,16 @@ class HarmonicScene {
     return std::nullopt;
   }
 
-  /// Draws the deformation at one frequency: the part in phase with the load, and the deformation a
-  /// quarter period later.
+  /// Draws the deformation at one frequency: in phase with the loads, and a quarter period later.
   void draw_at(double frequency, Drawing& drawing) const {
     const Eigen::VectorXcd q = response->at(frequency);
     if (q.size() == 0) return;
     const std::string label = fmt::format("{:.4g} Hz, ", frequency);
     drawing.shapes.push_back(draw_shape(system, q.real(), label + "in phase with the loads"));
-    drawing.shapes.push_back(draw_shape(system, -q.imag(), label + "a quarter turn behind"));
+    drawing.shapes.push_back(draw_shape(system, -q.imag(), label + "a quarter period later"));
   }
 
-  double low, high;  ///< [Hz]
+  double low, high;  ///< limits of the frequency range [Hz]
   std::size_t points;
   solver::System system;
   std::vector<Output> outputs;
@@ -133,7 +132,8 @@ class HarmonicScene {
     return found.frequency;
   }
 
-  /// Returns true for a resonance, near which the amplitude grows as 1 / distance in frequency.
+  /// Returns true if the amplitude of the output is unbounded at a natural frequency. Near the
+  /// frequency, such an amplitude is proportional to 1 / (distance in frequency).
   [[nodiscard]] bool is_pole(double frequency, const Output& output) const {
     const double unit = frequency > 0 ? frequency : high;
     const auto size_at = [&](double distance) {
@@ -158,7 +158,7 @@ class HarmonicScene {
   }
 
   bool damped_;
-  bool bounded_ = false;  ///< Rayleigh damping bounds every resonance
+  bool bounded_ = false;  ///< true: Rayleigh damping limits the amplitude at each resonance
 };
 
 }  // namespace

@@ -60,7 +60,7 @@ void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& c
     const solver::TrajectoryPoint point = solver::at(circle, period * k / points);
     const solver::InverseDynamics found =
         solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
-    if (!found.outcome.solved()) return;  // reported for the points of the path
+    if (!found.outcome.solved()) return;  // the analysis reports failures at path points
     work += found.actuator_power * period / points;
     turnover += std::abs(found.actuator_power) * period / points;
   }

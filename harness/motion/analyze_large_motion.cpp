@@ -33,11 +33,12 @@ struct OutputSelection {
   std::vector<Angle> angles;
 };
 
-/// Returns a node that must have a rotation, because it is an observer or its angle is recorded.
+/// Returns the index of a named node. The node must have a rotation, because the analysis records
+/// an angle of the node or motions relative to the axes of the node.
 solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
   const solver::Index node = find_node(name, system.model());
   if (system.layout().node[solver::to_size(node)][2] < 0)
-    throw name.error("expected a node with a rotation (only hinges meet at this node)");
+    throw name.error("expected a node with a rotation (all members are hinged at this node)");
   return node;
 }
 
@@ -169,7 +170,7 @@ void require_path_to_the_end(const JsonView& analysis, const solver::Path& path)
   }
 }
 
-/// Records the distance of P from its position on the same manipulator with rigid links.
+/// Records the deflection of P from its position on the same manipulator with rigid links.
 void record_deflection(const GeometricallyExactSystem& system, const State& state,
                        const solver::Path& path, Recorder& record) {
   const solver::Index p = system.model().find_node("P");
@@ -184,8 +185,8 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
   record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
 }
 
-/// Integrates from the model's initial state. If a path is tracked, the initial velocities are
-/// those of the manipulator with rigid links.
+/// Integrates the motion from the model's initial state. If the manipulator tracks a path, the
+/// initial velocities are those of the manipulator with rigid links.
 solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::TransientOptions& options, bool extrapolated,

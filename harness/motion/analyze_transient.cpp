@@ -37,16 +37,18 @@ struct MotionHistory {
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< factor of the loads (without weight) at each time
-  /// Delayed factors of the loads (row 0) and of the weight (row 1) at each time: solutions y of t
-  /// y' + y = factor. t is the coefficient of stiffness-proportional damping [s]. The matrix is
-  /// empty without such damping.
+  /// Factors of the loads (row 0) and of the weight (row 1) at each time, delayed by damping. Each
+  /// delayed factor is the solution y of
+  ///   t y' + y = factor,
+  /// where t is the coefficient of stiffness-proportional damping [s]. The matrix is empty if the
+  /// model has no stiffness-proportional damping.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< one row per coordinate, one column per time
   solver::ViscousDamping damping;  ///< Rayleigh and modal damping
   std::int64_t steps = 0;          ///< number of time steps; 0 for modal superposition
 };
 
-/// Returns the loads scaled by their history, and the weight, which is constant.
+/// Returns the loads multiplied by the load history, and the weight, which is constant.
 solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
                                          const solver::LoadHistory& history) {
   const VectorXd weight = system.T.transpose() * system.weight;
@@ -220,7 +222,8 @@ class Motion {
   }
 
   /// Adds Rayleigh and modal damping to the equation of motion.
-  /// @param omega, shape  frequencies and shapes of modes, at least those with a damping ratio
+  /// @param omega, shape  natural frequencies and mode shapes. They include all modes that have a
+  ///   damping ratio.
   void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
             const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) {
     equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
@@ -284,7 +287,7 @@ class Motion {
 
 /// Returns the part of the initial velocity that a reduced basis cannot represent [-]. The part is
 /// relative to the initial velocity of the full model, in the norm of kinetic energy. The result is
-/// 0 without an initial velocity.
+/// 0 if there is no initial velocity.
 double unrepresented_velocity(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");
@@ -298,8 +301,8 @@ double unrepresented_velocity(const JsonView& transient, const solver::System& f
   return whole > 0 ? std::sqrt(std::max(0.0, 1 - kinetic_energy(reduced) / whole)) : 0;
 }
 
-/// Computes the motion for the key "transient", with damping if it is one of the effects.
-/// @throws InputError  if the history or the damping is invalid.
+/// Computes the motion for the analysis "transient". Damping acts only if it is one of `effects`.
+/// @throws InputError  if the load history or the damping is invalid.
 MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
                              solver::Effects effects) {
   const bool damped = effects.has(solver::Effect::damping) && transient.has("damping");
@@ -344,7 +347,8 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
-/// Warns if a reduced basis omits over 1 % of the initial velocity. Less is invisible in a plot.
+/// Warns if a reduced basis omits over 1 % of the initial velocity. A smaller part
+/// is invisible in a plot.
 void warn_of_basis(double missing, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 0.01;
   if (!(missing > kNoticed)) return;

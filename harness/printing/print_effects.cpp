@@ -40,8 +40,8 @@ void print_effects(const EffectChoice& choice) {
                number_or_null(row.dimensionless_number), row.number_definition,
                number_or_null(row.own_change), number_or_null(row.cumulative_change)});
   table.print(std::cout, "  ");
-  std::cout << "  own: change of the results without this effect alone; cumulative: also without "
-               "those removed earlier\n";
+  std::cout << "  own: change of the results without this effect; cumulative: without this effect "
+               "and those removed before it\n";
   for (const results::EffectRow& row : choice.rows)
     std::cout << wrapped(row.name + ": " + row.why, "      ");
   std::cout << "  total: at most " << percent(choice.automatic->change)

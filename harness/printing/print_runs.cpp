@@ -44,8 +44,8 @@ std::string tolerance_text(const results::Check& check) {
   return high ? "[" + text(low) + ", " + text(high) + "]" : "at least " + text(low);
 }
 
-/// Returns the largest estimated discretization error of a quantity as text [%]; empty without an
-/// estimate.
+/// Returns the largest estimated discretization error of a quantity as text [%]; empty if
+/// there is no estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
   const auto* found = run.errors ? run.errors->find(quantity) : nullptr;
   if (found == nullptr) return "";
@@ -126,8 +126,8 @@ void print_numerical_uncertainty(const results::Results& results) {
   if (!results.uncertainty_coverage) return;
   const results::UncertaintyCoverage& found = *results.uncertainty_coverage;
   std::cout << fmt::format(
-      "the numerical uncertainty (GCI) covers the exact value on {} of {} levels ({}), median GCI "
-      "over error {}",
+      "the numerical uncertainty (GCI) covers the exact value on {} of {} levels ({}); median "
+      "ratio of GCI to error: {}",
       found.covered, found.levels, percent(found.coverage.value_or(kNaN)),
       rounded(found.median_ratio.value_or(kNaN), 3));
   if (!found.passes)

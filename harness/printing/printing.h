@@ -9,19 +9,21 @@
 
 namespace trammel::harness {
 
-/// Return columns and cells of a check: verdict, name, quantity, numbers and tolerance.
+/// Return the columns of a table of checks, and the cells of one check: verdict, name, quantity,
+/// numbers and tolerance.
 [[nodiscard]] std::vector<Column> check_columns();
 [[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
 
-/// Prints status, warnings and the worst value of each check of a run. Also prints
-/// the values of its quantities if `with_values` is true, if the run has no checks, or if its
-/// discretization errors were estimated.
+/// Prints status, warnings and the worst value of each check of a run. Also prints the values of
+/// the run's quantities if `with_values` is true, if the run has no checks, or if the run has
+/// estimates of discretization errors.
 void print_run(const results::Run& run, bool with_values = false);
 
 /// Prints the discretizations tried for the option --accuracy, with their estimated errors.
 void print_tried_settings(const results::ErrorEstimates& errors);
 
-/// Prints how often the numerical uncertainty (GCI) covers exact values, and how wide it is.
+/// Prints the fraction of refinement levels on which the numerical uncertainty (grid convergence
+/// index, GCI) covers the exact value, and the median ratio of GCI to true error.
 void print_numerical_uncertainty(const results::Results& results);
 
 void print_summary(const results::Results& results);

@@ -29,7 +29,8 @@ double angle_of_arc(const Json& model, const Json& member) {
   return turn > 0 ? turn : turn + 2 * std::numbers::pi;
 }
 
-/// Returns true for a bar, which cannot be divided: nodes inside it would move sideways freely.
+/// Returns true for a bar, which must remain a single element: without bending stiffness, nodes
+/// inside the bar could move sideways freely.
 bool is_bar(const Json& model, const Json& member) {
   const Json* section = find(model, "/sections/" + member.value("section", ""));
   return section != nullptr && section->value("second_moment_m4", 1.0) == 0 &&
@@ -162,7 +163,7 @@ std::optional<Json> time_step_patch(const Document& document, Refine refine, dou
     if (kind == "transient" && refine == Refine::coarser && analysis.contains("samples") &&
         step * analysis["samples"].get<double>() >
             (1 + 1e-9) * analysis["duration_s"].get<double>())
-      return std::nullopt;  // steps end at the samples
+      return std::nullopt;  // a step ends at each sample
     patch["step_s"] = step;
     if (analysis.value("output_step_s", step) < step) patch["output_step_s"] = step;
   }

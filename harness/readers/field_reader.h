@@ -13,9 +13,9 @@
 
 namespace trammel::harness {
 
-/// Returns the entry of `named` whose key is a name stated in the case.
-/// @param kind  text for the message: "a node", "a section"
-/// @throws InputError  at `place`, with the nearest name, if the name is unknown.
+/// Returns the value of the map `named` for the name that the case states at `place`.
+/// @param kind  noun for the error message: "a node", "a section"
+/// @throws InputError  at `place`, with the most similar known name, if the name is unknown.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const std::string& name,
                                const JsonView& place, const std::string& kind) {
@@ -48,7 +48,7 @@ struct SymbolTable {
   std::map<std::string, solver::Material> material;
   std::map<std::string, solver::Section> section;
   std::map<std::string, std::string>
-      section_shape;  ///< shapes by section: "rectangle", "circle", ""
+      section_shape;  ///< shape of each section: "rectangle", "circle", ""
   std::map<std::string, Edge> edge;
 
   [[nodiscard]] solver::Index find_node(const JsonView& name) const {
@@ -62,7 +62,8 @@ concept ScalarField = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 /// Reads the fields of a structure from a JSON object. A field without a key remains unchanged.
 class FieldReader {
  public:
-  /// @param symbols  named parts to which the object may refer; null if it refers to none
+  /// @param symbols  names of parts (nodes, sections, ...) to which the object may refer; null if
+  ///   the object refers to no part
   explicit FieldReader(JsonView place, const SymbolTable* symbols = nullptr)
       : place_(std::move(place)), symbols_(symbols) {}
 
@@ -85,7 +86,8 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// Reads a mass or moment of inertia. A word in place of the number leaves `value` empty.
+  /// Reads a mass or moment of inertia. A text instead of a number makes `value`
+  /// empty.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();
@@ -132,7 +134,8 @@ class FieldReader {
   const SymbolTable* symbols_;
 };
 
-/// Reads a part of a model, such as a spring. Its `visit_fields` function lists the keys.
+/// Reads a part of a model, such as a spring. The function `visit_fields` of the type
+/// lists the keys.
 template <class T>
 [[nodiscard]] T read_part(const JsonView& place, const SymbolTable* symbols = nullptr) {
   T part{};
@@ -165,8 +168,8 @@ template <class T, class Check = void (*)(const JsonView&, const T&)>
 }
 
 /// Plates consist of explicit triangles or of meshed blocks. A block is a quadrilateral between
-/// four named nodes. An edge contains sides of blocks; it can be loaded and supported, and its
-/// sides may be elliptic arcs. A named node at the position of a mesh node becomes part of the
+/// four named nodes. An edge contains sides of blocks, which may be elliptic arcs. An edge can be
+/// loaded and supported. A named node at the position of a mesh node becomes part of the
 /// mesh. Blocks, plates and frames that touch are therefore connected.
 
 /// Adds plates, triangles and mesh nodes to `structure`, and edges to `symbols`.
@@ -174,7 +177,7 @@ template <class T, class Check = void (*)(const JsonView&, const T&)>
 /// @throws InputError  if a name is unknown or the geometry is impossible.
 void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure);
 
-/// Returns the nodes on an edge, each once.
+/// Returns the nodes on an edge, without duplicates.
 [[nodiscard]] std::vector<solver::Index> nodes_of(const Edge& edge);
 
 /// Reads a traction or normal stress on an edge of a plate.

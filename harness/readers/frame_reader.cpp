@@ -129,7 +129,7 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
   const double apart = (model.nodes[solver::to_size(pin.nodes[0])].position -
                         model.nodes[solver::to_size(pin.nodes[1])].position)
                            .norm();
-  constexpr double kRoundoff = 1e-12;  // round-off of coordinates over the model's size
+  constexpr double kRoundoff = 1e-12;  // round-off error of coordinates / size of the model
   if (apart > kRoundoff * solver::box_diagonal(model))
     throw place["nodes"].error("the nodes of a pin require the same position (got a distance of " +
                                shortest_decimal(apart) + " m)");
@@ -226,7 +226,7 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
   joints.sliders = read_parts<Slider>(
       model, "sliders", symbols, [](const JsonView& place, const Slider& slider) {
         if (slider.rail == slider.node)
-          throw place["rail"].error("'rail' and 'node' are equal; expected two nodes");
+          throw place["rail"].error("'rail' and 'node' are equal; expected two different nodes");
       });
   joints.line_springs = read_parts<LineSpring>(model, "axial_springs", symbols);
   joints.follower_loads = read_parts<FollowerLoad>(

@@ -154,7 +154,7 @@ PlatformMotion read_platform_motion(const JsonView& model,
       const auto posture = solver::inverse_kinematics(geometry, motion.points[i].pose);
       if (posture.outcome.solved()) continue;
       reason = posture.outcome.reason;
-    } catch (const solver::ModelError& error) {  // a path may overflow between finite knots
+    } catch (const solver::ModelError& error) {  // overflow between knots of a spline
       reason = error.what();
     }
     const std::string point = single ? "" : " at point " + std::to_string(i);

@@ -11,7 +11,7 @@
 #include "solver/model/model.h"
 
 /// JSON keys and C++ members of the parts of a planar model, each listed once. `FieldReader`, the
-/// writer of exported cases and a test that compares them with the schema use the same list:
+/// writer of exported cases and a test that compares the keys with the schema use the same list:
 ///
 ///   io.required(key, member);   always written
 ///   io.defaulted(key, member);  optional in the schema, and always written

@@ -19,8 +19,8 @@ struct Structure {
   solver::large_motion::LargeMotionModel joints;
 };
 
-/// Reads the nodes of a planar model and the parts that connect them. Indices of new nodes follow
-/// those of `given_nodes`.
+/// Reads the nodes of a planar model, and the parts that connect the nodes. Indices of new nodes
+/// follow those of `given_nodes`.
 /// @param model  the JSON object /model of the case
 /// @param given_nodes  existing nodes of the manipulator
 /// @throws InputError  if a name is unknown or the geometry is impossible.
@@ -28,7 +28,7 @@ struct Structure {
                                        const std::vector<solver::Node>& given_nodes);
 
 /// Reads the manipulator at /model/manipulator of a case.
-/// @throws InputError  if its geometry is meaningless.
+/// @throws InputError  if the geometry of the manipulator is invalid.
 [[nodiscard]] solver::ManipulatorDesign read_manipulator(const JsonView& manipulator);
 
 /// Motion of the platform: a single pose at rest, or the sampled points of a path.
@@ -39,7 +39,7 @@ struct PlatformMotion {
 
 /// Reads /model/pose or /model/trajectory.
 /// @param model  the JSON object /model of the case
-/// @throws InputError  if a pose is out of reach.
+/// @throws InputError  if the manipulator cannot reach a pose.
 [[nodiscard]] PlatformMotion read_platform_motion(const JsonView& model,
                                                   const solver::ManipulatorGeometry& geometry);
 

@@ -22,11 +22,12 @@ namespace trammel::harness {
 [[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
 /// Limits the number of time steps to ten million.
-/// @param step  time step [s] in the case; an error refers to its place
+/// @param step  time step [s] in the case; error messages contain its JSON pointer
 /// @throws InputError  if the duration contains more steps.
 void limit_time_step_count(const JsonView& step, double duration);
 
-/// Reads Rayleigh damping w1 M + w2 K: {"mass_per_s": w1, "stiffness_s": w2}; none by default.
+/// Reads Rayleigh damping w1 M + w2 K: {"mass_per_s": w1, "stiffness_s": w2}; zero
+/// damping if the key is absent.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
 
 /// Reads the load factor over time, "load_history": {"time_s", "factor"}; constant 1 by default.
@@ -38,10 +39,10 @@ void limit_time_step_count(const JsonView& step, double duration);
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 /// Reads the key "damping" of an analysis; no damping if it is absent.
-/// @param modes  number of modes of the model, which the text "all" in the case denotes; empty if
-///   it is unknown.
+/// @param modes  number of modes of the model, which replaces the text "all" in the case; empty if
+///   the number is unknown.
 /// @throws InputError  for "all" with an unknown number of modes, for more ratios than modes, or
-///   for meaningless numbers.
+///   for invalid numbers.
 [[nodiscard]] solver::HarmonicDamping read_damping(
     const JsonView& analysis, std::optional<solver::Index> modes = std::nullopt);
 
@@ -63,7 +64,7 @@ void read_prescribed_motions(const JsonView& analysis, const solver::Model& buil
 void read_motion_conditions(const JsonView& analysis, const solver::Model& built,
                             solver::large_motion::LargeMotionModel& large_motion);
 
-/// Reads a law of motion, which returns position, velocity and acceleration at a time.
+/// Reads a law of motion: a function that returns position, velocity and acceleration at a time.
 [[nodiscard]] solver::large_motion::TimeFunction read_motion_law(const JsonView& law);
 
 /// Returns the index of the node with a name.

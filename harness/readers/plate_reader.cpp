@@ -42,14 +42,14 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
   if (area == 0) throw place.error("expected a triangle with an area (got collinear points)");
-  if (area < 0) {  // clockwise: swaps two corners and their sides
+  if (area < 0) {  // for a clockwise order, swaps two corners and two sides
     std::swap(triangle.nodes[1], triangle.nodes[2]);
     std::swap(triangle.nodes[3], triangle.nodes[5]);
   }
   return triangle;
 }
 
-/// Reads the curve of an edge; empty for a straight edge.
+/// Reads the curve of an edge; returns no value for a straight edge.
 std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   if (edge.has("ellipse") && edge.has("circle"))
     throw edge.error("expected at most one of 'ellipse' and 'circle' (got both)");
@@ -109,7 +109,7 @@ class Outline {
   std::map<Ends, std::optional<solver::Ellipse>> curve_;
 };
 
-/// Sides of the meshed blocks of all plates, found by their corner nodes.
+/// Sides of the meshed blocks of all plates, indexed by the two corner nodes of each side.
 class Sides {
  public:
   /// @param piece  side of the block; the plate is to the left of its sequence of nodes
@@ -205,7 +205,8 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
           "no side of a block connects the previous node with this one; expected the two corners "
           "of one side");
     edge.pieces.push_back(found->front());
-    // A side between two blocks has no outward normal. The index -1 of its plate excludes loads.
+    // A side between two blocks has no outward normal. The plate index -1 marks a side that cannot
+    // be loaded.
     if (found->size() > 1) edge.pieces.back().plate = -1;
   }
   return edge;

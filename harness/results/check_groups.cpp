@@ -58,7 +58,7 @@ bool is_worse_than(const Check& a, const Check& b) {
     return size_of_difference(a) > size_of_difference(b);
   const double share_a = difference_over_tolerance(a), share_b = difference_over_tolerance(b);
   if (share_a != share_b) return share_a > share_b;
-  return beyond(a) > beyond(b);  // if both limits are zero, the fractions are equal
+  return beyond(a) > beyond(b);  // decides if both tolerances are zero
 }
 
 const Check& CheckGroup::worst() const {

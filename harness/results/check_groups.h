@@ -4,7 +4,8 @@
 
 #include "harness/results/run_results.h"
 
-/// Checks of a run, which compare computed with expected values, by name and by severity.
+/// Groups the checks of a run by name, and orders checks by severity. A check compares a computed
+/// with an expected value.
 namespace trammel::results {
 
 /// Returns the difference between computed and expected value, divided by the tolerance. The result
@@ -20,7 +21,7 @@ namespace trammel::results {
 /// Returns true if the result of check `a` is more severe than that of check `b`. The results in
 /// descending severity are: error, fail, not run or not given, recorded without judgment, known
 /// discrepancy, pass. Of two known discrepancies, the one with the larger difference is more
-/// severe. Otherwise the larger `share_of_tolerance` is more severe.
+/// severe. Otherwise, the check with the larger `difference_over_tolerance` is more severe.
 [[nodiscard]] bool is_worse_than(const Check& a, const Check& b);
 
 /// Checks of one run that have the same name and the same quantity, in the order of the run.

@@ -17,7 +17,7 @@ struct SandboxedRun {
   Termination termination = Termination::failed;
   std::string reason;                                     ///< reason why the computation failed
   std::vector<std::vector<double>> values;                ///< values of each observed quantity
-  std::map<std::string, std::vector<double>> quantities;  ///< all quantities, if none is selected
+  std::map<std::string, std::vector<double>> quantities;  ///< all quantities, if none is requested
   Counters counters;
   double cpu_s = 0;
 };
@@ -39,12 +39,12 @@ struct SettingTime {
 
 struct CostSetting {
   std::string curve, curve_title, title, status, reason;
-  Number value;  ///< parameter that varies along the curve, such as the number of elements
+  Number value;  ///< parameter that varies along a curve, such as the number of elements
   std::optional<ErrorNorms> errors;  ///< error norms of the study's first output
   /// Error norms of each output that the setting computes. They are not part of results.json.
   std::vector<std::optional<ErrorNorms>> output_errors;
-  double cpu_s = 0;  ///< median of the repeats, or time of the first run
-  Number relative;   ///< median time divided by that of the baseline setting
+  double cpu_s = 0;  ///< processor time [s]: median of the repeats, or time of the first run
+  Number relative;   ///< median time divided by the median time of the baseline setting
   std::optional<SettingTime> time;
   Counters counters;
   bool pareto_optimal = false;
@@ -63,13 +63,14 @@ struct CheapestSetting {
   /// Index of the fastest setting with an error of at most `error`; empty if no setting is so
   /// accurate.
   std::optional<std::size_t> setting;
-  std::vector<std::size_t> tied;  ///< settings that are not significantly slower
+  std::vector<std::size_t> tied;  ///< settings not significantly slower than `setting`
 };
 
 /// Result of a cost study for one of its outputs, or for all outputs together.
 struct CostOutput {
   std::string title, scale;
-  std::vector<Number> errors;  ///< error of each setting (study's norm); empty without the output
+  /// Error of each setting in the norm of the study; missing if a setting has no such output.
+  std::vector<Number> errors;
   std::vector<CheapestSetting> cheapest;
 };
 
@@ -79,10 +80,10 @@ struct CostStudy {
   std::size_t baseline = 0;
   double wall_s = 0;
   std::vector<CheapestSetting> cheapest;
-  /// Largest relative difference between the times of odd and of even repeats for the same error,
-  /// over all errors that both reach. The value is a fraction: 0.1 is 10 %.
+  /// Largest relative difference between the times that odd and even repeats need for the same
+  /// error, over all errors that odd and even repeats reach. The value is a fraction: 0.1 is 10 %.
   Number repeatability;
-  std::vector<CostOutput> outputs;  ///< if the study has several; the last entry combines all
+  std::vector<CostOutput> outputs;  ///< empty for one output; the last entry combines all outputs
   /// Hash of each reference file that was used. The hashes are not part of results.json.
   std::map<std::string, std::string> references;
 

@@ -171,7 +171,7 @@ void share_texts(Json& json, const SharedTexts& shared) {
   if (!texts.empty()) json[shared.list] = std::move(texts);
 }
 
-/// Replaces the indices in JSON objects by the texts of the shared list.
+/// Replaces indices in JSON objects by the texts with these indices in the shared list.
 void give_texts(Json& json, const SharedTexts& shared) {
   if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;

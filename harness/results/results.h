@@ -43,7 +43,7 @@ struct PlotRequest {
 /// divided by another timing.
 struct ColumnRequest {
   std::string id, title, quantity, timing, over_timing;
-  std::string statistic;  ///< statistic of the quantity; empty: first value of the quantity
+  std::string statistic;  ///< statistic of the quantity; empty: the first value is shown
 };
 
 /// A table requested by a case, with a row for each of `variants` (empty: all variants).
@@ -64,15 +64,15 @@ struct Variant {
   std::string id, title;
 };
 
-/// One input of a model: path of its key ("links/thickness_m"), its value, and the file that states
-/// it if this is not the file of the case.
+/// Input of a model: path of its key ("links/thickness_m"), value, and the file that states the
+/// value if this file is not the case file.
 struct CaseInput {
   std::string path, value, source;
 };
 
 struct CaseInfo {
   std::string id, title, description, family, analysis;
-  std::string file;  ///< absolute path; empty for cases of the catalogue
+  std::string file;  ///< absolute path of the case file; empty for cases of the catalogue
   std::vector<std::string> labels;
   std::optional<StressSuiteEntry> stress_suite;
   std::vector<PlotRequest> figures;
@@ -94,11 +94,11 @@ struct Reference {
 struct UncertaintyCoverage {
   std::size_t levels = 0, covered = 0, min_levels = 0;
   Number coverage, min_coverage;
-  Number median_ratio, max_median_ratio;  ///< ratio of GCI to true error
+  Number median_ratio, max_median_ratio;  ///< median ratio of GCI to true error, and its limit
   bool passes = false;
 };
 
-/// One computed number by which an interpretation of a claim is judged.
+/// Computed number that determines the verdict on an interpretation of a claim.
 struct ClaimEntry {
   std::string case_id, variant, name;
   double value = 0;
@@ -121,18 +121,18 @@ struct PaperItem {
     /// Case that reproduces the item, its variant (empty: all), its quantity (empty: all) and its
     /// figure (empty: none).
     std::string case_id, variant, quantity, figure;
-    std::string verdict;  ///< verdict in words
+    std::string verdict;  ///< verdict of the case's checks in words
   };
   std::string id, section, what;  ///< example of an id: "equation-14"
   std::vector<Counterpart> shown_by = {};
   std::vector<std::string> claims = {};
-  std::string reason = {};  ///< reason for a missing counterpart, or for the absence of a judgment
+  std::string reason = {};  ///< reason why no case reproduces or judges the item
   std::string note = {};
 };
 
 struct Claims {
   std::string title;
-  bool as_recorded = false;  ///< true if every verdict equals the expected one
+  bool as_recorded = false;  ///< true if each verdict equals the expected verdict
   std::vector<Claim> claims;
   std::vector<PaperItem> items = {};
 };
@@ -156,7 +156,8 @@ struct EffectScene {
   double tolerance = 0;                 ///< requested relative tolerance [-]
   double change = 0;  ///< largest relative change of the results from all to the selected effects
   bool minimal = false;  ///< true if no selected effect can be omitted within the tolerance
-  double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< time [s]: all, selected effects, selection
+  /// Times of runs with all and with the selected effects, and time of the selection [s].
+  double whole_s = 0, chosen_s = 0, deciding_s = 0;
   /// Counted work of the selection and of the run with selected effects, relative to the work of
   /// the run with all effects.
   double work_ratio = 0;
@@ -185,7 +186,7 @@ struct HistoryCall {
 /// Change of a verdict or number from the last call of `trammel run` without failures (green) to
 /// the newest call.
 struct HistoryChange {
-  std::string name;  ///< name of run, check and entry; for counted work, of the run
+  std::string name;  ///< name of run, check and entry; for counted work, only of the run
   std::string verdict_before, verdict;
   Number before, after;
   std::string commit, date;  ///< commit and date of the first call with the change

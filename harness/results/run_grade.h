@@ -9,7 +9,7 @@
 namespace trammel::results {
 
 /// agrees: all judged checks pass. off: a check fails. broken: the answer of the code is invalid,
-/// or a check of it ends with an error. crashed, timed_out: the code ended without an answer.
+/// or a check ends with an error. crashed, timed_out: the code ended without an answer.
 /// cannot: the code does not support the case. not_exported: the export format does not support the
 /// case. not_given: the code does not compute the quantities. not_judged: no check passes or fails.
 /// not_run: the code was not called.
@@ -35,8 +35,8 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
 /// Returns true if the grade counts against the code: off, broken, crashed or timed out.
 [[nodiscard]] bool is_failure(Grade grade);
 
-/// Returns the most informative check. Failing checks come first, then checks with a difference,
-/// then the most severe check. Returns null if no check passes or fails.
+/// Returns the most informative check of a run. Failing checks come first, then checks with a
+/// difference, then the most severe check. Returns null if no check passes or fails.
 [[nodiscard]] const Check* decisive_check(const Run& run);
 
 }  // namespace trammel::results

@@ -19,9 +19,9 @@ using harness::Number;
 using harness::Numbers;
 
 /// Verdict of a check. recorded: the difference is recorded without judgment, because a validation
-/// check states no expected difference, or because another solver does not reproduce trammel's
-/// earlier results. not_given: another solver does not compute the quantity. The verdicts recorded
-/// and not_given never fail a run.
+/// check states no expected difference, or because another solver need not reproduce earlier
+/// results of trammel. not_given: another solver does not compute the quantity. The verdicts
+/// recorded and not_given never fail a run.
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
 /// Status of a run. The last four values apply only to solvers other than trammel.
@@ -77,11 +77,11 @@ struct Convergence {
   std::string sweep, quantity, statistic;
   std::string reference;  ///< id of the reference with the exact value
   int index = 0;
-  Numbers parameter;         ///< refined parameter, such as elements
+  Numbers parameter;         ///< values of the refined parameter, such as elements
   Numbers values, roundoff;  ///< values, and relative round-off
   std::vector<double> size;  ///< element size h, up to a common factor; not written
   Number exact;
-  bool is_error = false;  ///< the values are themselves errors and `exact` is 0; not written
+  bool is_error = false;  ///< true: the values are errors, and `exact` is 0; not written
   Number theory_order;
   /// Second, lower theoretical order of convergence, which dominates on fine meshes: error = a
   /// h^theory + b h^lower.
@@ -98,7 +98,8 @@ struct Convergence {
   Number richardson;                    ///< extrapolated value; missing if the values diverge
   std::optional<TwoTermLaw> two_term;   ///< law of the relative error, if two orders mix
   /// Grid convergence index: relative half-width of the interval expected to contain the converged
-  /// value. It does not use the exact value. It includes round-off. Missing if the values diverge.
+  /// value. The index does not use the exact value, and includes round-off errors. Missing if the
+  /// values diverge.
   Numbers gci;
   /// Roache's safety factor of the grid convergence index: 1.25 if the observed order is within 10
   /// % of the theoretical order, else 3. If two orders mix, the observed order may be anywhere
@@ -144,7 +145,7 @@ struct Comparison : ValidationVerdict {
   std::string check, quantity, unit, reference;
   std::string dominant_input;  ///< input with the largest contribution; empty: none
   int index = 0;
-  Number simulation, expected, difference;  ///< S, D, E
+  Number simulation, expected, difference;  ///< S, D and E = S - D
   Number u_num, u_reference;  ///< uncertainty due to discretization, and to the printed digits of D
   Number dominant_share;      ///< fraction of u_input^2 due to `dominant_input`
   /// Signed contribution of each input to u_input.
@@ -197,7 +198,7 @@ struct Drawing {
   std::vector<std::vector<int>> members, triangles;
   std::vector<Joint> joints;
   std::vector<Shape> shapes;
-  std::vector<Pose> poses;  ///< further poses of the same mechanism
+  std::vector<Pose> poses;  ///< further poses of the mechanism, or instants of its motion
   std::vector<DrawnForce> forces;
 };
 
@@ -219,8 +220,8 @@ struct EffectRow {
   bool applicable = false, active = false;
   std::int64_t evaluations = 0;
   Number dimensionless_number;
-  Number own_change;         ///< relative change of the results without this effect alone
-  Number cumulative_change;  ///< relative change without this effect and those already removed
+  Number own_change;         ///< relative change of the results without this effect
+  Number cumulative_change;  ///< relative change without this and previously removed effects
 };
 
 /// Estimated discretization error of a quantity: half-widths of error bands about its values.
@@ -269,7 +270,7 @@ struct ReadingClass {
   std::string title;  ///< title of the most probable reading of the class
   int readings = 0;
   Number probability;
-  Numbers values;  ///< best prediction of the class [unit of the row]
+  Numbers values;  ///< values that the class predicts for the row [unit of the row]
 };
 
 struct FurtherNumber {
@@ -327,7 +328,7 @@ struct Run {
 
   // The following members are written only in the store.
   std::vector<Sweep> sweeps;
-  std::map<std::string, std::string> references;  ///< hash of each reference, by its location
+  std::map<std::string, std::string> references;  ///< hash of each reference file, by path
   std::string machine;                            ///< machine of the time measurements
   SolverIdentity solver;                          ///< solver that computed the run; empty: trammel
 

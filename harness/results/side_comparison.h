@@ -5,15 +5,15 @@
 
 #include "harness/results/results.h"
 
-/// Comparison of several sets of results (sides), number by number. A side contains the results of
-/// a variant or case, or the results of one date, machine or code. Every list of values has one
-/// entry per side.
+/// Comparison of several sets of results (sides), number by number. Each side contains the results
+/// of one variant, case, date, machine or code. Every list of values has one entry per side.
 namespace trammel::results {
 
-/// Values of one number, or of the frequency of a set of modes, on each side.
+/// Values of one number, or of the frequency of a set of modes, in each compared set of results
+/// (side).
 struct ComparedValue {
-  Numbers values;  ///< value on each side; missing if the side lacks it
-  /// Change from the first side [%]; missing if the first value is zero up to round-off.
+  Numbers values;  ///< value on each side; missing if the side has no value
+  /// Change from the value on the first side [%]; missing if that value is zero up to round-off.
   Numbers percent;
   /// Estimated discretization error of the value on each side: half-width of the error band [unit].
   /// Missing if the run has no estimate.
@@ -36,7 +36,7 @@ struct ComparedNumber : ComparedValue {
 struct ComparedModes : ComparedValue {
   /// Mode numbers (from 1) on each side; empty: no mode of the side has a similar shape.
   std::vector<std::vector<std::size_t>> modes;
-  Numbers last;   ///< highest frequency of a set that has split
+  Numbers last;   ///< highest frequency on each side, if a set of equal frequencies splits
   Numbers alike;  ///< similarity of the mode shapes; 1: identical
 };
 
@@ -47,8 +47,8 @@ struct ComparedRun {
   std::vector<std::string> remarks;  ///< texts about missing quantities and changed verdicts
   double share = 0;                  ///< largest `share` of the compared numbers
   bool changed = false;
-  CaseInfo info;          ///< case of the first side; not written
-  std::vector<Run> runs;  ///< run of each side, with its series if they are drawn; not written
+  CaseInfo info;          ///< case of the first side; not written to JSON
+  std::vector<Run> runs;  ///< run of each side; not written to JSON
 };
 
 struct ComparedSide {

@@ -13,7 +13,8 @@ namespace {
 constexpr double kAllDigits = 16;
 constexpr double kClear = 10;  ///< ratio of tolerance to noise below which a tolerance is tight
 
-/// Returns true if the solver solved the run, or determined that it is singular or not convergent.
+/// Returns true if the run was solved, or if the solver reported a singular matrix or an iteration
+/// without convergence.
 bool has_answer(const results::Run& run) {
   using results::Status;
   return run.status == Status::solved || run.status == Status::singular ||
@@ -63,7 +64,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
       is_known = row.before != nullptr;
       ends_equally = row.is_in_both() && row.before->verdict == row.after->verdict;
       flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
-    } else if (is_known && !row.is_in_both()) {  // listed only if the runs end equally
+    } else if (is_known && !row.is_in_both()) {  // missing check of runs with equal status
       ++total.missing;
       flipped = ends_equally;
     } else if (is_known) {

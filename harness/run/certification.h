@@ -17,7 +17,8 @@ struct Configuration {
 
 struct ConfigurationRow {
   std::string name;
-  std::size_t checks = 0, missing = 0;  ///< checks judged in both configurations; in only one
+  /// Number of checks judged in both configurations, and number judged in only one of them.
+  std::size_t checks = 0, missing = 0;
   /// Numbers of digits that agree with the first configuration: minimum and median over all judged
   /// numbers.
   double fewest_digits = 16, median_digits = 16;
@@ -31,7 +32,8 @@ struct VerdictFlip {
   std::string configuration, check, from, to;
 };
 
-/// Tolerance of a check that is less than ten times the change of the judged difference (noise).
+/// Tolerance of a check that is less than ten times the noise. The noise is the change of the
+/// judged difference between two configurations.
 struct TightTolerance {
   std::string check, configuration;  ///< check: "case:variant name"
   /// Tolerance, and change of the judged difference from the first to another configuration.

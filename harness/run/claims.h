@@ -31,7 +31,7 @@ namespace trammel::harness {
 
 /// Loads the items of cases/paper/claims without verdicts, in the order of the publication.
 /// @throws InputError  for an unknown case, variant, quantity, figure or claim, and for an item
-///   without a counterpart, claim and reason.
+///   that has neither a counterpart nor a claim nor a reason.
 [[nodiscard]] std::vector<results::PaperItem> load_paper_items(const Document& claim_set,
                                                                const Catalogue& catalogue);
 

@@ -36,11 +36,11 @@ constexpr double kRoundoff = 1e-9;
 /// Largest relative round-off error that is taken from the estimates stored with a run. Larger
 /// estimates are ignored, because they are not due to round-off.
 constexpr double kLargestRoundoff = 1e-6;
-constexpr std::size_t kFewEntries = 6;  ///< longer quantities show only the most changed entry
+constexpr std::size_t kFewEntries = 6;  ///< of a longer quantity, only the largest change is shown
 constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series
 
-/// Returns the group of quantities that share a scale: all quantities of a unit. Poses, and each
-/// dimensionless quantity, have separate groups.
+/// Returns the name of the group of quantities that share a scale. A group contains all quantities
+/// with the same unit, but poses and each dimensionless quantity have separate groups.
 std::string series_of(const std::string& name) {
   const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
   return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
@@ -72,8 +72,8 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   return stated;
 }
 
-/// Order of runs and of numbers: changes above round-off come first, then the larger relative
-/// change.
+/// Order of compared runs or numbers: changes above round-off come first, and larger relative
+/// changes before smaller ones.
 constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
@@ -85,7 +85,7 @@ double distance(const Number& a, const Number& b) {
   return a || b ? std::numeric_limits<double>::infinity() : 0;
 }
 
-/// Sets share, percentages and `changed` of a number from its values and its noise.
+/// Sets `share`, `percent` and `changed` of a compared number from its values and `noise`.
 /// @param scale  largest value of the group of quantities
 void set_change(ComparedValue& value, double scale) {
   const Number first = value.values.front();
@@ -119,7 +119,8 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
   return found;
 }
 
-/// Compares all entries of a short quantity, but only the most different entry of a long quantity.
+/// Compares all entries of a short quantity. For a long quantity, returns only the entry with the
+/// largest difference.
 std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs& runs,
                                             double scale) {
   const std::vector<double>& first = *runs.front()->quantity(name);
@@ -143,7 +144,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     for (const auto& quantity : run->quantities)
       if (!is_error_measure(quantity.first)) names.insert(quantity.first);
   const std::map<std::string, double> scales = series_scales(runs);
-  std::map<std::string, std::vector<std::string>> absent;  // quantities by the sides that lack them
+  std::map<std::string, std::vector<std::string>> absent;  // missing quantities, by side
   for (const std::string& name : names) {
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
@@ -249,7 +250,7 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
 }
 
 bool same_bits(const Runs& runs) {
-  const auto number = [](double value) { return Number(value); };  // NaN equals NaN
+  const auto number = [](double value) { return Number(value); };  // makes NaN equal to NaN
   return std::ranges::all_of(runs, [&](const results::Run* run) {
     const auto same = [&](const auto& a, const auto& b) {
       return a.first == b.first &&
@@ -316,7 +317,7 @@ ComparedSide side_of(const Side& side) {
   const results::Environment& environment = side.results.environment;
   found.label = side.label;
   found.runs = side.results.runs.size();
-  if (side.document) return found;  // computed in this call
+  if (side.document) return found;  // this call of trammel computed the side
   found.commit = environment.commit;
   found.date = environment.date;
   found.processor = environment.processor;
@@ -341,8 +342,8 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
                      number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// Returns a text about the largest change of a run: that of a mode. If no mode has changed, that
-/// of a number; else the first remark.
+/// Returns a text about the largest change of a mode of the run. If no mode has changed, describes
+/// the largest change of a number. If no number has changed, returns the first remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
@@ -400,7 +401,8 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   return by_name;
 }
 
-/// Loads the series of runs from the store. If the store lacks one, all series are removed.
+/// Loads the series of runs from the store. If the series of one run are missing from the store,
+/// removes the series of all runs.
 /// @returns the number of runs without stored series
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;

@@ -12,7 +12,7 @@
 /// `history` print the result.
 namespace trammel::harness {
 
-/// A comparable item of results: a run, or one judged entry of one of its checks.
+/// Compared item of two sets of results: a run, or one judged number of a check.
 struct Entry {
   std::string verdict;    ///< verdict of the check, or status of the run
   results::Number value;  ///< computed value
@@ -29,11 +29,12 @@ struct Entry {
 /// report only their worst entry (bounds, comparisons with a variant) have no index.
 using Entries = std::map<std::string, Entry>;
 
+/// Adds entries for a run and for each judged number of the run's checks.
 /// @param name  name of the run, such as "case:variant"
 void add_entries(const results::Run& run, const std::string& name, Entries& entries);
 /// Returns all entries of the results, which must outlive the entries.
 [[nodiscard]] Entries entries_of(const results::Results& results);
-/// Returns "case:variant".
+/// Returns the name of a run: "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 
 /// The same entry in two sets of results. The pointer to an entry is null if its set does not
@@ -55,15 +56,15 @@ struct Side {
   std::string label;
   results::Results results;
   /// Case of a single run that this call of the program has computed; empty for stored results.
-  /// Computed runs are compared even if their names differ. Their mode shapes are compared at
-  /// stations along the members. Stored runs are compared only with runs of the same name. Their
+  /// Computed runs are compared even if their names differ, and their mode shapes are compared at
+  /// stations along the members. Stored runs are compared only if their names are equal, and their
   /// mode shapes are compared at the nodes of the drawings.
   std::optional<Document> document;
 };
 
-/// Compares all sides with the first side. Differences up to the round-off error are ignored. The
-/// error is read from the runs, but is at least 1e-9 of the largest value of all quantities with
-/// the same unit.
+/// Compares all sets of results (sides) with the first one. Differences up to the round-off error
+/// are ignored. This error is read from the runs, but is at least 1e-9 of the largest value of all
+/// quantities with the same unit.
 /// @param series  if true, the result contains all values over time or a path for the runs with the
 ///   largest changes
 [[nodiscard]] results::SideComparison compare_sides(std::vector<Side> sides, bool series);

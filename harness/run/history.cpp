@@ -120,8 +120,9 @@ bool is_failure(const results::Check& check) {
          check.verdict == results::Verdict::not_run;
 }
 
-using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< records of one entry: call, state
+using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< records of an entry by call id
 
+/// Returns the records of each entry, by the name of the entry.
 /// @param sql  query for name, call, verdict, value and noise, in the order of the calls
 std::map<std::string, Course> courses_of(Database& database, const char* sql) {
   std::map<std::string, Course> courses;
@@ -186,7 +187,7 @@ void write_entries(Database& database, const results::Results& results, std::int
       insert(row.name, "INSERT INTO entry SELECT ?, id, ?, ?, ? FROM name WHERE text = ?",
              {entry.verdict, number_or_null(entry.value), entry.noise});
   }
-  for (const results::Run& run : results.runs)  // an earlier call recorded a stored run
+  for (const results::Run& run : results.runs)  // stored runs are in the record of an earlier call
     if (!run.was_stored)
       insert(name_of(run), "INSERT INTO cost SELECT ?, id, ?, ? FROM name WHERE text = ?",
              {run.cost.cpu_s, run.cost.counted_work()});
@@ -213,7 +214,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
   const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
   for (const DiffRow& row : pair_entries(before, now)) {
     if (!row.is_in_both() || !row.after->differs(*row.before)) continue;
-    std::int64_t first = 0;  // first call of the current uninterrupted difference; 0: none yet
+    std::int64_t first = 0;  // first of the latest consecutive calls with a change; 0: none
     for (const auto& [call, entry] : courses.at(row.name)) {
       const bool differs = call > since && entry.differs(*row.before);
       first = !differs ? 0 : first == 0 ? call : first;
@@ -228,7 +229,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
 
 std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses) {
   constexpr std::size_t kLeast = 3;      // minimum number of steps
-  constexpr double kLargestStep = 0.01;  // relative; a larger step is not a slow drift
+  constexpr double kLargestStep = 0.01;  // largest relative step of a slow drift
   std::vector<HistoryDrift> drifts;
   for (const auto& [name, course] : courses) {
     std::vector<double> values;

@@ -31,7 +31,7 @@ OutputLock::OutputLock(const fs::path& folder) : folder_(folder), file_(folder /
   std::error_code error;
   fs::create_directories(folder, error);
   acquire();
-  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // files of a killed call
+  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // removes files of a killed call
   const std::string holder = "process " + std::to_string(getpid());
   if (write(descriptor_, holder.data(), holder.size()) != static_cast<ssize_t>(holder.size()))
     throw InputError("--out " + folder_.string() + ": expected a writable folder");

@@ -26,8 +26,8 @@ Status status_of(solver::Status status) {
   return Status::error;
 }
 
-/// Rounds the displacements in poses and mode shapes to seven digits. They suffice for drawing, and
-/// for matching of modes, because the error of the overlap is of second order.
+/// Rounds the displacements in poses and mode shapes to seven digits. Seven digits suffice for
+/// drawing, and for matching of modes, because the error of the overlap is of second order.
 void round_drawing(results::Drawing& drawing) {
   const auto round = [](std::vector<results::Point>& points) {
     for (auto& [x, y] : points) x = static_cast<float>(x), y = static_cast<float>(y);
@@ -46,7 +46,7 @@ void add_inputs(const Document& document, const JsonPointer& place, results::Cas
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
   if (text.size() > kMaxLength) return;
   const std::string pointer = place.to_string(), file = document.origin(pointer).file;
-  const bool is_own = file == document.origin("/id").file;  // bases do not pass on their id
+  const bool is_own = file == document.origin("/id").file;  // an id is not inherited from a base
   info.inputs.push_back({pointer.substr(std::string("/model/").size()), text,
                          is_own ? "" : std::filesystem::path(file).filename().string()});
 }
@@ -127,7 +127,7 @@ results::Results collect_results(std::vector<Run> runs, const std::vector<Case>&
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {
     const bool is_known = contains(out.cases, run.case_id, &results::CaseInfo::id);
-    // A case that could not be read is missing from `cases`, so that its id is added.
+    // A case that could not be read is missing from `cases`. Its id is added here.
     if (!is_known) {
       results::CaseInfo unread;
       unread.id = unread.title = run.case_id;

@@ -33,11 +33,11 @@ using results::HistoryChange;
 using results::HistoryDrift;
 
 /// Adds the results of a call to the history.
-/// @throws InputError  if the file is not such a history or cannot be written.
+/// @throws InputError  if the file is not a history of trammel, or cannot be written.
 void append_history(const std::filesystem::path& file, const results::Results& results);
 
 /// Reads the history.
-/// @throws InputError  if the file does not exist or is not such a history.
+/// @throws InputError  if the file does not exist or is not a history of trammel.
 [[nodiscard]] History read_history(const std::filesystem::path& file);
 
 }  // namespace trammel::harness

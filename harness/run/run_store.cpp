@@ -23,8 +23,9 @@
 namespace trammel::harness {
 namespace {
 
-constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< maximum size of uncompressed data
+constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< maximum size of uncompressed data [byte]
 
+/// Returns true if a function of zstd failed.
 /// @throws std::bad_alloc  if zstd could not allocate memory.
 bool failed(std::size_t result) {
   if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
@@ -47,6 +48,7 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
+/// Returns the uncompressed contents of a file of the store.
 /// @throws std::runtime_error  for a truncated or damaged file.
 std::string uncompressed(const std::string& bytes) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());

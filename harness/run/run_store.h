@@ -22,7 +22,7 @@ namespace trammel::harness {
 [[nodiscard]] std::string run_file_name(const Document& document, bool requested,
                                         const std::string& solver_hash = "");
 
-/// Serializes a run for the answer of its process and for a file of the store.
+/// Serializes a run for a file of the store, and for the transfer from the process of the run.
 [[nodiscard]] std::string to_bytes(const Run& run);
 /// @throws std::exception  if the bytes were not written by `to_bytes`.
 [[nodiscard]] Run parse_run(const std::string& bytes);

@@ -56,7 +56,7 @@ std::map<std::size_t, fs::path> require_all(const std::vector<fs::path>& folders
     const auto [place, fresh] = places.emplace(shard["shard"].get<std::size_t>(), folder);
     if (!fresh)
       throw InputError((folder / kShardFile).string(), "/shard",
-                       "expected each shard once (" + std::to_string(place->first) +
+                       "expected each shard once (shard " + std::to_string(place->first) +
                            " is also in " + place->second.string() + ")");
   }
   for (std::size_t number = 1; number <= first["of"]; ++number)

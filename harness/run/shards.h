@@ -27,8 +27,8 @@ inline constexpr const char* kStoreFolder = "store";
 /// Copies the stores of all shards into one store.
 /// @param folders  folders written by `write_shard`, in any order.
 /// @returns the selection of cases, which is equal in all shards.
-/// @throws InputError  if a shard is incomplete, missing, duplicated, or of another program or
-///   selection, or if a computation is in two shards or in none.
+/// @throws InputError  if a shard is incomplete, missing or duplicated, if shards are results of
+///   different programs or selections of cases, or if a computation is in two shards or in none.
 Json merge_shards(const std::vector<std::filesystem::path>& folders,
                   const std::filesystem::path& store);
 

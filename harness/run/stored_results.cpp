@@ -70,7 +70,7 @@ bool load_stored_data(Run& run, const fs::path& store) {
       return other != nullptr &&
              std::ranges::equal(*other, own.second.values, {}, as_number, as_number);
     });
-    if (!same) return false;  // the file belongs to another run
+    if (!same) return false;  // the file contains another run
     if (!found.sweeps.empty())
       run.convergence = parse_convergence(read_text(judged_file(store / run.stored)));
     run.quantities = std::move(found.quantities);

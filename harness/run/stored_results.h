@@ -9,7 +9,7 @@
 /// convergence and uncertainty remain in the run store.
 namespace trammel::harness {
 
-/// Nesting depth in results.json from which a value is written in one line, such as a check.
+/// Minimum nesting depth in results.json of values that are written in one line, such as a check.
 inline constexpr std::size_t kLineDepth = 4;
 
 /// Writes results.json into the folder, completely or not at all. Convergence studies are written

@@ -14,17 +14,18 @@
 
 namespace trammel::harness {
 
-/// Key "model" of a case in the form from which a planar model is built at each pose of its path.
+/// Contents of the key "model" of a case, from which a planar model is built at each pose of the
+/// path.
 struct CaseModel {
   std::optional<solver::ManipulatorDesign> manipulator;
   /// Motion of the platform: one pose at rest, or the points of the path.
   std::vector<solver::TrajectoryPoint> motion;
-  std::optional<solver::Path> path;  ///< if present, quantities have one number per point
+  std::optional<solver::Path> path;  ///< if present, quantities have one number per path point
   /// Parts other than the manipulator. Node indices start after the nodes of the manipulator.
   solver::Model structure;
   /// Sliders, line springs and follower loads, which linear analysis supports only in part.
   solver::large_motion::LargeMotionModel joint_elements;
-  solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` keeps
+  solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` includes
   /// If true, statics with large displacement is solved to six digits only, and residuals of the
   /// solution are not computed.
   bool estimates_large_displacement = false;
@@ -58,10 +59,10 @@ inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},
                                       kBodies = {"A1-B1", "A2-B2", "A3-B3",   "B1-C1",
                                                  "B2-C2", "B3-C3", "platform"};
 
-/// Reads the bodies of the manipulator, and gravity.
-/// @throws InputError  without a manipulator, or if the case has parts that rigid dynamics would
-///   ignore. These are members, plates, bodies, masses, springs, supports and loads that are not on
-///   the platform.
+/// Reads dimensions and mass properties of the manipulator and the gravity for rigid dynamics.
+/// @throws InputError  if the case has no manipulator, or has parts that rigid dynamics would
+///   ignore: members, plates, bodies, masses, springs, supports, and loads that do not act on the
+///   platform.
 [[nodiscard]] solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
                                                               const CaseModel& case_model);
 

@@ -81,7 +81,8 @@ void draw_triangles(const solver::Model& model, const DrawnNodes& drawn, Drawing
   }
 }
 
-/// Draws a rigid body as a bar to its only node, or as a fan of triangles about its reference.
+/// Draws a rigid body as a bar to its only node, or as a fan of triangles about its reference
+/// node.
 void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const solver::RigidBody& body : model.rigid_bodies) {
     const int reference = drawn.index_of(body.reference);
@@ -93,7 +94,8 @@ void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Draw
   }
 }
 
-/// Draws one joint symbol per node. If a node has several joints, the most specific is drawn.
+/// Draws one joint symbol per node. If a node has several joints, only the most specific
+/// type is drawn.
 void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
   std::vector<std::string> kind(model.nodes.size());

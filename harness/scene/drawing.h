@@ -23,9 +23,9 @@ inline constexpr std::size_t kMaxDrawnNodes = 4000;
 /// Adds triangles, rigid bodies and joints to a drawing that begins with all nodes of the model.
 void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
 
-/// Draws the mesh of a model, with points inside elements that smooth the members. A fine mesh is
-/// drawn without the mid-side nodes of its six-node triangles. Returns nothing if the drawing would
-/// have more than kMaxDrawnNodes nodes.
+/// Draws the mesh of a model, with points inside elements, so that bent members look smooth. A fine
+/// mesh is drawn without the mid-side nodes of its six-node triangles. Returns nothing if the
+/// drawing would have more than kMaxDrawnNodes nodes.
 [[nodiscard]] std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator);
 
 /// Returns the displacements of the drawing's nodes for free coordinates q. Inside elements, it

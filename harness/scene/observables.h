@@ -8,7 +8,7 @@
 #include "solver/linear/statics.h"
 
 /// Table of the quantities of nodes, members, supports and plates as functions of a model's state.
-/// Analyses record states by this table, and the key "outputs" selects quantities.
+/// Analyses record these quantities, and the key "outputs" of a case selects some of them.
 /// results/quantities.txt documents each quantity and the kinds of analysis that compute it.
 namespace trammel::harness {
 
@@ -16,7 +16,7 @@ namespace trammel::harness {
 /// that its quantities require.
 struct ModelState : solver::StaticSolution {
   Eigen::MatrixX3d velocity = {}, acceleration = {};  ///< one row (x, y, rotation) per node
-  Eigen::MatrixX3d relative = {};  ///< displacement relative to a node that moves and rotates
+  Eigen::MatrixX3d relative = {};  ///< displacement in axes that move and rotate with a node
 };
 
 /// Named node, member, end of a member, plate or set of supports.
@@ -33,11 +33,11 @@ struct Observable {
   /// Function that computes the quantity for a part of the model. It returns NaN if the part does
   /// not have the quantity.
   double (*value)(const solver::Model&, const ModelState&, const ModelPart&);
-  bool is_force = false;     ///< has the round-off error of forces
-  bool is_optional = false;  ///< omitted for parts with the value NaN
+  bool is_force = false;     ///< true: the quantity has the round-off error of forces
+  bool is_optional = false;  ///< true: omitted for parts with the value NaN
 };
 
-/// Records the observables of an analysis for all parts of a model, which must outlive the
+/// Records the quantities of an analysis for all parts of a model. The model must outlive the
 /// recorder.
 class StateRecorder {
  public:

@@ -7,7 +7,7 @@
 namespace trammel::harness {
 namespace {
 
-constexpr solver::Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P of the builder
+constexpr solver::Index first_C = 6, P = 9;  // order of nodes: A1..A3, B1..B3, C1..C3, P
 
 }  // namespace
 

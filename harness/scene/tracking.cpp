@@ -15,10 +15,10 @@ namespace {
 void require_joints(const JsonView& place, const solver::ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (design.active[i].kind != solver::ActiveKind::locked)
-      throw place.error("tracking requires 'locked' active joints, which it then drives");
+      throw place.error("tracking requires 'locked' active joints (got another type)");
     if (design.elbow[i].kind != solver::ElbowKind::hinged ||
         design.platform_joint[i].kind != solver::PlatformJointKind::hinged) {
-      throw place.error("tracking requires hinged elbow joints and platform joints (got others)");
+      throw place.error("tracking requires hinged elbow and platform joints (got another type)");
     }
   }
 }

@@ -11,8 +11,8 @@
 /// or apply the torques that the rigid twin requires.
 namespace trammel::harness {
 
-/// Data taken from the rigid twin: the angles of its actuators, or the torques of its inverse
-/// dynamics under the same loads.
+/// Data of the rigid twin (manipulator with rigid links) that are applied to the actuators: their
+/// angles, or the torques of inverse dynamics under the same loads.
 enum class Tracking { angles, torques };
 
 /// Prescribes the rotations of the actuators that follow the trajectory, or applies the torques of
@@ -34,7 +34,8 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
                               const solver::large_motion::LargeMotionModel& large_motion,
                               solver::Model& model);
 
-/// Integrates the motion from the model's pose, with the initial velocities of the rigid twin.
+/// Integrates the motion from the model's pose. The initial velocities are those of the rigid twin
+/// (manipulator with rigid links).
 [[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracked(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
     const solver::TransientOptions& options, const solver::large_motion::Observer& observe);

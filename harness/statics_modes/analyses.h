@@ -5,7 +5,7 @@
 /// Functions for statics, buckling, modes, design derivatives and manufactured solutions.
 namespace trammel::harness {
 
-/// Computes masses, their centers and moments of inertia, of each part and of the model.
+/// Computes mass, center of mass and moment of inertia of each part and of the complete model.
 AnalyseStep analyze_properties;
 
 /// Computes displacements, end rotations, reactions, section forces, stresses and residuals.
@@ -15,11 +15,11 @@ AnalyseStep analyze_statics;
 /// path.
 AnalyseStep analyze_large_statics;
 
-/// Computes the load factors, common to all loads, at which the model buckles, and critical forces.
+/// Computes buckling load factors, which multiply all loads, and the critical forces.
 AnalyseStep analyze_buckling;
 
 /// Computes natural frequencies at rest, under the model's loads or in a rotating frame. Along a
-/// path of the platform there is one quantity per mode, frequency_Hz:1 ... The modes of a
+/// path of the platform, each mode has a separate quantity (frequency_Hz:1, ...). The modes of a
 /// manipulator without other parts are computed for all poses together
 /// (solver/manipulator/pose_modes.h). For other models, the modes are computed separately at each
 /// point.

@@ -124,7 +124,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
     result.warnings.push_back(
         {"the number of follower loads, which turn with their nodes",
          static_cast<double>(large_motion.follower_loads.size()), "",
-         "statics does not detect instability by flutter; 'vibration_modes' does"});
+         "statics does not detect flutter instability; 'vibration_modes' detects it"});
   for (const PathPoint& point : recorded_points) {
     record_point(system, point, record, result.warnings);
     if (vibrations > 0)

@@ -28,7 +28,7 @@ Body join(const Body& a, const Body& b) {
 }
 
 /// Returns mass, center and inertia of a member, whose elements have constant sections. Includes
-/// the rotary inertia of the cross-section if the beam theory has it.
+/// the rotary inertia of the cross-section if the beam theory includes rotary inertia.
 Body body_of(const solver::Model& model, const solver::Member& member) {
   const Eigen::Vector2d start = model.nodes[solver::to_size(member.nodes[0])].position;
   const Eigen::Vector2d end = model.nodes[solver::to_size(member.nodes[1])].position;

@@ -22,7 +22,7 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
     read.push_back({name, read_design_parameter(place)});
     if (!(parameter_value(*case_model.manipulator, read.back().parameter) > 0))
       throw place["property"].error(
-          "the manipulator does not have this property; expected another one");
+          "the manipulator does not have this property; expected another property");
   }
   return read;
 }
@@ -41,8 +41,8 @@ FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                              name == "central-difference");
 }
 
-/// Computes derivatives of the natural frequencies. If `exactly` is true, finite differences serve
-/// only for parameters without an exact derivative. Otherwise they serve for all parameters.
+/// Computes derivatives of the natural frequencies. If `exactly` is true, finite differences are
+/// used only for parameters without an exact derivative. Otherwise, they are used for all.
 solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& case_model,
                                     const std::vector<solver::DesignParameter>& parameters,
                                     bool exactly) {
@@ -68,7 +68,7 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
     if (exactly && !one.derivative.allFinite())
       all.outcome = {solver::Status::singular,
-                     "a limb is straight or folded, so that every step leaves its reach"};
+                     "a limb is straight or folded, so that no changed design reaches the pose"};
   }
   return all;
 }

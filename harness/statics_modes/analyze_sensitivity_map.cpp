@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< sensitivity at the central position
-  double mean_frequency = kNaN, mean = kNaN;  ///< over all positions of the map
+  double mean_frequency = kNaN, mean = kNaN;  ///< means of frequency and sensitivity
   /// Sensitivity of largest magnitude, away from the boundary of the workspace.
   double largest = kNaN;
 };
@@ -100,7 +100,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     parameter = read_design_parameter(*given);
     if (!(parameter_value(design, parameter) > 0))
       throw(*given)["property"].error(
-          "the manipulator does not have this property; expected another one");
+          "the manipulator does not have this property; expected another property");
     if (!solver::has_exact_derivative(parameter.kind))
       throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }

@@ -21,7 +21,7 @@ using solver::Pose;
 using solver::Vector2d;
 using Kind = DesignParameter::Kind;
 
-/// Calls visit(value) for each value that the parameter denotes in links, platform and joints.
+/// Calls visit(value) for each number of links, platform and joints that the parameter selects.
 template <class Visit>
 void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
   const Kind kind = parameter.kind;
@@ -58,8 +58,8 @@ void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double chang
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
-/// Number of modes computed in addition to the requested modes. They complete the last set of equal
-/// frequencies.
+/// Number of modes computed in addition to the requested modes. These modes complete the last set
+/// of equal frequencies.
 constexpr Index kExtraModes = 3;
 /// Largest permitted change of a frequency by a finite-difference step, as a fraction of the
 /// distance to the nearest other frequency.
@@ -123,7 +123,7 @@ class Differences {
   VectorXd central(double step) {
     const VectorXd above = frequencies(step), below = frequencies(-step);
     const Index needed = sets_.empty() ? 0 : sets_.back().first + sets_.back().count;
-    if (std::min(above.size(), below.size()) < needed) {  // the modes did not converge
+    if (std::min(above.size(), below.size()) < needed) {  // the eigensolver did not converge
       return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
     }
     VectorXd rate = VectorXd::Zero(count_);

@@ -23,7 +23,7 @@ struct DesignInPose {
                                      const solver::DesignParameter& parameter, double change);
 
 /// Returns the value of a parameter: the largest value of the selected parts, or 0 if no part has
-/// it. For the orientation it returns 1 rad, because an angle has no natural zero.
+/// this parameter. For the orientation, returns 1 rad, because an angle has no natural zero.
 [[nodiscard]] double parameter_value(const solver::ManipulatorDesign& design,
                                      const solver::DesignParameter& parameter);
 
@@ -39,19 +39,20 @@ struct FrequencyDifferences {
 /// Computes the derivatives by central differences with up to 7 finite-difference steps, each
 /// smaller than the previous one by the factor 1.6. Extrapolates the differences to the step zero.
 /// From the table of extrapolated values, it selects the entry that agrees best with its neighbors
-/// (Ridders 1982). The steps are so small that adjacent frequencies remain apart and the limbs
-/// remain within reach. The branches of a repeated frequency are smooth. Therefore, at a parameter
+/// (Ridders 1982). The steps are so small that adjacent frequencies remain apart and the pose
+/// remains within reach. The branches of a repeated frequency are smooth. Therefore, at a parameter
 /// p with step h, the lowest branch for p + h continues the highest branch for p - h.
 /// @param relative_step  ratio of the first step to the value of the parameter; reduced if it is
 ///   too large
-/// @throws ModelError  as `build_manipulator`.
+/// @throws ModelError  if the design is invalid (see `build_manipulator`).
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(
     const solver::ManipulatorDesign& design, const solver::Pose& pose,
     const solver::DesignParameter& parameter, solver::Index count, double relative_step = 5e-3);
 
 /// Computes one difference quotient without extrapolation: central over 2 h or forward over h.
 /// @param relative_step  ratio of the step h to the value of the parameter, > 0
-/// @throws ModelError  as `build_manipulator`, also if the changed design cannot reach the pose.
+/// @throws ModelError  if the design is invalid (see `build_manipulator`), or if the changed design
+///   cannot reach the pose.
 [[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
                                                        const solver::Pose& pose,
                                                        const solver::DesignParameter& parameter,

@@ -198,7 +198,7 @@ struct ErrorNorm {
 };
 
 /// Records the relative error norms with their estimated round-off errors. The estimate is the
-/// resolution of a double, multiplied by the number of cells for each order of the derivative.
+/// resolution of a double times cells^n, for an error of derivatives of order n.
 StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
                         std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};

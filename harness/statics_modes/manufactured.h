@@ -17,7 +17,7 @@ struct MembraneTest {
   double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
 };
 
-/// Discrete model and its solution. The vector q is empty without a solution.
+/// Discrete model and its solution. The vector q is empty if there is no solution.
 struct ManufacturedSolution {
   solver::Outcome outcome;
   solver::System system;

@@ -64,7 +64,7 @@ void warn_of_rotation(double rotation, std::vector<Warning>& warnings) {
   add_warning(warnings, {"the largest rotation", rotation, " rad",
                          "linear theory holds up to " + rounded(kMaxLinearRotation) +
                              " rad, where it neglects theta^2 / 2 = 0.5 %; large-statics, "
-                             "large-motion and the effect large-displacement hold beyond"});
+                             "large-motion and the effect large-displacement have no limit"});
 }
 
 void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
@@ -130,7 +130,7 @@ void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings) {
   }
   if (!(largest > kMaxTaperRatio)) return;
   add_warning(warnings, {"the largest ratio of stiffness at the ends of an element", largest, "",
-                         "each element of a tapered member has the section at its middle; more "
+                         "each element of a tapered member has a constant section; more "
                          "'elements' of the member make results accurate"});
 }
 

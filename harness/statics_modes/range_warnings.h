@@ -40,7 +40,7 @@ void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<W
 /// of bending has the length pi / beta, with beta^4 = w^2 m / EI. The limit is half of a half wave.
 inline constexpr double kMaxWaveNumber = 1.5708;
 /// Returns the highest frequency with at least two elements per half wave of bending [Hz]; infinite
-/// without bending.
+/// if no element bends.
 [[nodiscard]] double resolved_frequency(const solver::Mesh& mesh);
 /// Warns if the elements are too long for the highest mode.
 /// @param frequency  highest of the reported modes [Hz]
@@ -58,8 +58,8 @@ void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 void warn_of_roundoff(double frequency_roundoff, std::vector<Warning>& warnings);
 
 /// Warns of redundant constraints among supports, rigid bodies and inextensible members.
-/// Equilibrium does not determine how they share the loads. The reported forces are one of many
-/// solutions.
+/// Equilibrium does not determine how the constraints share the loads. The reported forces are one
+/// of many solutions.
 void warn_of_redundant_constraints(const solver::System& system, std::vector<Warning>& warnings);
 /// Warns if there are redundant constraints.
 /// @param redundant  number of redundant constraints

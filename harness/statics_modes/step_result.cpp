@@ -21,7 +21,7 @@ void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd&
 
 namespace {
 
-/// Keeps the drawing of the first point of a path, and adds those of later points as poses in time.
+/// Keeps the drawing of the first point of a path, and adds the drawings of later points as poses.
 void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
                 std::optional<Drawing>& all) {
   if (!all) all = std::move(found);

@@ -14,7 +14,7 @@ struct Warning {
   std::string quantity;  ///< subject of the text: "the largest rotation"
   double value = 0;
   std::string unit;     ///< unit with a leading space: " rad"
-  std::string meaning;  ///< validity range of the quantity and its reason
+  std::string meaning;  ///< validity range of the quantity, and reason for the range
 
   [[nodiscard]] std::string text() const {
     return quantity + " is " + rounded(value, 3) + unit + ": " + meaning;
@@ -22,7 +22,7 @@ struct Warning {
 };
 
 /// Adds a warning. Of two warnings about the same quantity, for example at two points of a path,
-/// the larger value is kept.
+/// only the warning with the larger value is kept.
 inline void add_warning(std::vector<Warning>& warnings, const Warning& warning) {
   const auto is_same = [&](const Warning& other) {
     return other.quantity == warning.quantity && other.meaning == warning.meaning;

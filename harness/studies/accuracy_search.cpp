@@ -225,7 +225,7 @@ class Search {
     if (probed_.contains(source)) {
       found_.result = std::move(probed_.at(source));
       two_levels_.erase(source);
-    } else if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
+    } else if (!solve(finer->document)) {  // for example, an explicit scheme is unstable
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
@@ -236,7 +236,7 @@ class Search {
     bands_[source] = with_observed_order(two_levels, two_levels_[source], source, coarser);
     two_levels_[source] = std::move(two_levels);
     if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);
-    if (has_exact_steps(current_))  // peaks can still be between samples
+    if (has_exact_steps(current_))  // a peak can still lie between samples
       bands_[ErrorSource::step] =
           error_bands(found_.result, found_.result, ErrorSource::step, {current_, false, 2, ""});
     if (!probed_.contains(source)) found_.tried.push_back(current_);

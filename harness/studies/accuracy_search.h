@@ -20,8 +20,8 @@ struct AccuracyRequest {
 };
 
 struct AccuracySearch {
-  std::vector<Document> tried;  ///< all settings, coarse to fine
-  AnalysisResult result;        ///< of the last setting, or of the best one if none is sufficient
+  std::vector<Document> tried;  ///< all computed discretizations, coarse to fine
+  AnalysisResult result;        ///< with the last discretization, or with the most accurate one
   results::ErrorEstimates errors;
   std::vector<std::string> asked;  ///< names of the quantities that must be accurate; empty: all
   bool reached = false;
@@ -42,7 +42,7 @@ struct AccuracySearch {
                                              const References& references);
 
 /// Returns a cost study of the discretizations tried by a search. The reference solution has twice
-/// the elements and half the time step of the last one.
+/// the elements and half the time step of the last discretization.
 [[nodiscard]] CostStudy cost_study_of_search(const Case& given, const std::string& variant,
                                              const AccuracySearch& search,
                                              const AccuracyRequest& request);

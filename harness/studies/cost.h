@@ -12,7 +12,7 @@
 /// study.
 namespace trammel::harness {
 
-/// Returns the norms of the relative errors over all observed entries.
+/// Returns norms of the relative errors of all values in `computed`.
 /// @param reference_solution  as many values as `computed`; an empty list for a quantity whose
 ///     values are errors themselves.
 /// @throws std::runtime_error  if the numbers of values differ, or a scale is zero.

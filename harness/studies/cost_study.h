@@ -22,11 +22,11 @@ struct ObservedQuantity {
   /// Statistic that reduces the entries to one number, such as the maximum; empty: all entries.
   std::string statistic;
   std::vector<std::size_t> index;  ///< selected entries; empty: all
-  bool is_error = false;           ///< the values are relative errors
+  bool is_error = false;           ///< true: the values are relative errors
   /// Exact values of the quantity. If empty, errors are differences from the reference solution of
   /// the study.
   std::vector<double> exact;
-  std::size_t output = 0;  ///< index of its output in CostStudy::outputs
+  std::size_t output = 0;  ///< index of the quantity's output in CostStudy::outputs
 
   /// Returns true if errors of the quantity require the study's reference solution.
   [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
@@ -114,7 +114,7 @@ using results::SandboxedRun;
 /// those of the checks. Their errors are measured against references of the kinds proved, exact or
 /// computed, or else against the finest level of the first sweep. The baseline is the coarsest
 /// level of the first sweep.
-/// @throws InputError  if the case has no such sweep, or nothing can be measured.
+/// @throws InputError  if the case has no such sweep, or has no quantity with measurable errors.
 [[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                              const std::vector<std::string>& sweeps,
                                              const References& references);

@@ -8,7 +8,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the exact values of a quantity, one per entry; empty without an exact reference.
+/// Returns the exact values of a quantity, one per entry; empty if no reference is exact.
 std::vector<double> exact_values(const TrackedQuantity& tracked) {
   if (tracked.reference == nullptr || !is_exact(*tracked.reference)) return {};
   const references::Reference& reference = *tracked.reference;

@@ -21,10 +21,10 @@ namespace {
 using results::ErrorEstimate;
 using results::ErrorEstimates;
 
-constexpr double kSafetyFactor = 3;       // Roache's factor if the order is not observed
-constexpr double kLargeDifference = 0.1;  // relative; outside of the asymptotic range
+constexpr double kSafetyFactor = 3;       // Roache's safety factor if no order is observed
+constexpr double kLargeDifference = 0.1;  // relative; not in the asymptotic range above
 constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
-                                          // for all
+                                          // for all entries
 
 /// Returns the name of a quantity without "steady_" or "peak_".
 std::string base_name(const std::string& name) {
@@ -94,7 +94,7 @@ double step_order(const Document& document, const std::string& quantity) {
   if (inner_analysis_kind(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
   // the largest step limits all steps, the error decreases only to 1/4, and not to 10^(-2/3). The
-  // larger error is assumed.
+  // larger of these errors is assumed.
   if (has_step_tolerance(document))
     return analysis.contains("error_control") ? std::log10(4.0) : 2.0 / 3;
   // Vibrations with periods below the step delay the convergence of reactions.
@@ -124,8 +124,8 @@ std::optional<double> theoretical_order(const Document& document, ErrorSource so
 }
 
 /// Returns a bound of the difference between the largest value of a curve and the largest of its
-/// samples, for a parabola through three samples. With few samples, this bound is not reliable and
-/// the largest value is returned. Returns 0 for quantities that are not peaks.
+/// samples, for a parabola through three samples. With few samples, this bound is unreliable, and
+/// the largest value is the bound. Returns 0 for quantities that are not peaks.
 double sampling_error(const AnalysisResult& result, const std::string& name) {
   constexpr std::size_t kFew = 16;
   const auto curve = result.quantities.find(base_name(name));
@@ -151,7 +151,7 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
-/// Returns true if a frequency or load factor has no counterpart on the other level, or if a curve
+/// Returns true if a frequency or load factor has no match on the other mesh, or if a curve
 /// has fewer than two common samples.
 bool has_gaps(const ErrorBands& bands) {
   return std::ranges::any_of(bands, [](const auto& item) {
@@ -311,13 +311,13 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
   const Document& document = companion.document;
   const ErrorScales scales(document, result);
   ErrorBands bands;
-  // A finer companion has half the element size of the coarse mesh.
+  // Highest frequency that the coarser of both meshes resolves [Hz].
   double resolved = std::numeric_limits<double>::infinity();
   if (source == ErrorSource::mesh && inner_analysis_kind(document) == "modes") {
     const solver::Mesh mesh =
         solver::discretize(model_at_path_start(read_case_model(document))).mesh;
     resolved = resolved_frequency(mesh);
-    for (const solver::FrameElement& e : mesh.frame)  // half waves of two elements along a bar
+    for (const solver::FrameElement& e : mesh.frame)  // two elements per axial half wave
       if (e.section.mass_per_length > 0)
         resolved = std::min(resolved,
                             std::sqrt(e.section.EA / e.section.mass_per_length) / (4 * e.length));
@@ -342,12 +342,13 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
       const double roundoff =
           scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
-      if (name.starts_with("growth_rate") && difference <= roundoff) continue;  // may be unstable
+      // Growth rates that are equal up to round-off have no estimate: the mode may be unstable.
+      if (name.starts_with("growth_rate") && difference <= roundoff) continue;
       const bool is_nodal = !order && difference <= 100 * roundoff;
       const bool is_coarse = difference > kLargeDifference * std::max(std::abs(values[i]), scale) ||
                              (name == "frequency_Hz" && values[i] > resolved);
-      // The same value on two coarse meshes is no evidence, such as that of a free bar with one
-      // element and with two.
+      // Equal values on two coarse meshes do not imply convergence. An example is a free bar with
+      // one element and with two elements.
       const bool is_blind = is_coarse && difference <= 100 * roundoff;
       const double p = is_coarse ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
@@ -361,7 +362,8 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
     }
     bands.emplace(name, std::move(band));
   }
-  // Stresses are derivatives of displacements, and no more accurate than those on a coarse mesh.
+  // Stresses are derivatives of displacements. On a coarse mesh, their relative errors are at least
+  // those of the displacements.
   double coarse_error = 0;
   for (const auto& [name, band] : bands)
     if (name.starts_with("displacement_") && !band.asymptotic)
@@ -469,7 +471,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
       }
     }
     if (source == ErrorSource::step && has_exact_steps(document))
-      bands[source] = error_bands(result, result, source, {document, false, 2, ""});  // of peaks
+      bands[source] = error_bands(result, result, source, {document, false, 2, ""});  // peaks
     if (!used.empty()) found.companions += (found.companions.empty() ? "" : "; ") + used;
     if (used.empty() && !failed.empty())
       found.reason = "the computation with " + failed + " has no solution or is too expensive";

@@ -24,7 +24,7 @@ struct Companion {
 /// Returns a second computation (companion) with half the elements or twice the time step, or with
 /// the opposite for Refine::finer. If the number of elements cannot be halved, the companion is
 /// finer. Returns nothing if the analysis has no mesh or no time steps.
-/// @param own  result of `document`, from which the largest step of a step control is read
+/// @param own  result of `document`, which contains the largest step that the step control used
 [[nodiscard]] std::optional<Companion> adjacent_refinement_level(
     const Document& document, ErrorSource source, Refine refine = Refine::coarser,
     const AnalysisResult* result = nullptr);
@@ -34,8 +34,8 @@ struct Companion {
 [[nodiscard]] bool is_estimated(const std::string& quantity);
 
 /// Returns, for each mode, the index of the mode of the other result with the same shape. Modes
-/// without a counterpart are matched by their numbers if their frequencies differ by at most 10 %,
-/// and modes without a drawn shape always. The index is empty if no mode matches.
+/// without a counterpart are matched by their numbers if their frequencies differ by at most 10 %.
+/// Modes without a drawn shape are always matched by number. The index is empty if no mode matches.
 [[nodiscard]] std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                                     const AnalysisResult& other);
 
@@ -54,7 +54,7 @@ struct Companion {
 struct ErrorBand {
   std::vector<double> half_width;  ///< [unit]
   std::vector<double> difference;  ///< |fine - coarse| [unit]
-  std::vector<double> factor;      ///< part of the difference that is in the half width
+  std::vector<double> factor;      ///< ratio of half width (without round-off) to difference
   std::optional<double> order;
   bool asymptotic = true;
 };

@@ -55,7 +55,7 @@ struct EffectStudy {
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  int repeats = 7;  ///< number of timed runs of each set, after one warm-up; 0: no times
+  int repeats = 7;  ///< timed runs of each set of effects, after one warm-up; 0: no times
 };
 
 /// Measures by how much each physical effect changes the results and the computing time of a case.

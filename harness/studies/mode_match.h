@@ -11,7 +11,7 @@ namespace trammel::harness {
 /// Mode shapes of one model, sampled at the points that two models have in common.
 struct SampledModes {
   std::vector<double> frequency;  ///< natural frequencies, ascending [Hz]
-  Eigen::MatrixXd shape;          ///< displacement at common points x mode
+  Eigen::MatrixXd shape;          ///< rows: displacements of common points; columns: modes
 };
 
 /// Returns the drawn modes of two results at common points of their drawings: the points with equal

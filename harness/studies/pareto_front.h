@@ -34,7 +34,8 @@ inline constexpr double kParetoTolerance = 0.05;
                                                       double error);
 
 /// Returns the settings with an error of at most `error` that are not significantly slower than the
-/// fastest of them: the confidence intervals of the times overlap, or nearly do.
+/// fastest of these settings: the confidence intervals of the times overlap, up to a gap of
+/// kParetoTolerance.
 [[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
                                                      double error);
 
@@ -45,8 +46,9 @@ inline constexpr double kParetoTolerance = 0.05;
 /// Returns the target errors for which the report lists the fastest settings.
 [[nodiscard]] const std::vector<double>& target_errors();
 
-/// Returns the largest relative difference between the times that two measurements of the same
-/// settings need for the same error, over all errors of both Pareto fronts that both reach.
+/// Returns the largest relative difference between the times of two Pareto fronts for the same
+/// error, over all errors that both fronts reach. The fronts are two measurements of the same
+/// settings.
 [[nodiscard]] double compare_pareto_fronts(const std::vector<CostPoint>& a,
                                            const std::vector<CostPoint>& b);
 

@@ -163,7 +163,7 @@ class ValidationStudy {
       const auto* found = errors.find(places_[i].check->quantity);
       const double half_width =
           found == nullptr
-              ? 0  // no discretization
+              ? 0  // no discretization error
               : found->error_half_width(places_[i].index, value_at(quantities_, places_[i]))
                     .value_or(kNaN);
       study_.comparisons[i].u_num = half_width / kGciToStandard;

@@ -21,14 +21,14 @@ Real characteristic(const BeamEnds& ends, const Real& b) {
 }
 
 /// Bending vibration of a clamped-clamped beam of constant thickness and width b exp(-2 a x), at
-/// the circular frequency w. Its equations have constant coefficients. Solutions are exp(a x) cosh
-/// z x and exp(a x) sinh z x. Deflection and rotation vanish at both ends. With r^2 = I/A, P = z^2
-/// - a^2, kG = kappa G / rho and e = E / rho:
+/// the circular frequency w. Its equations have constant coefficients, with the solutions exp(a x)
+/// cosh z x and exp(a x) sinh z x. Deflection and rotation vanish at both ends. With r^2 = I/A, P =
+/// z^2 - a^2, kG = kappa G / rho and e = E / rho:
 ///
 ///   Euler-Bernoulli:  P^2 = w^2 / (e r^2)
 ///   Timoshenko:       (kG P + w^2)(e r^2 P - kG + w^2 r^2) = -kG^2 P
 struct Beam {
-  Real L, a, r2, e, kG;  ///< kG = 0: Euler-Bernoulli
+  Real L, a, r2, e, kG;  ///< symbols as above; kG = 0: Euler-Bernoulli
 };
 
 /// Returns both roots P = z^2 - a^2 of the characteristic equation of an exponential beam at the
@@ -110,9 +110,9 @@ Polynomial line(const Real& ratio) {
 }
 
 /// Returns the Ritz values of 1/w of a tapered cantilever in descending order, where w is a
-/// circular frequency. The `n` functions are s^2 x^k; E I and rho A at the clamped end and the
-/// length are 1. The Ritz values are the singular values of L_K^-1 L_M, with K = L_K L_K^T and M =
-/// L_M L_M^T.
+/// circular frequency. The length is 1, and E I and rho A are 1 at the clamped end. The Ritz values
+/// for the `n` functions s^2 x^k are the singular values of L_K^-1 L_M, where the stiffness matrix
+/// is K = L_K L_K^T and the mass matrix is M = L_M L_M^T.
 RealVector ritz_periods(const Polynomial& depth, const Polynomial& width, std::size_t n) {
   const Polynomial A = depth * width, I = A * depth * depth;
   std::vector<Polynomial> shape(n), bend(n);
@@ -175,7 +175,7 @@ std::vector<Real> beam_roots_program(const Arguments& arguments) {
 }
 
 std::vector<Real> beam_frequencies_program(const Arguments& arguments) {
-  static_cast<void>(arguments.positive("width_m"));  // cancels from EI / rho A
+  static_cast<void>(arguments.positive("width_m"));  // the width cancels in EI / rho A
   const Real length = arguments.positive("length_m");
   const Real thickness = arguments.positive("thickness_m");
   const Real radius_of_gyration = thickness / sqrt(Real(12));

@@ -13,13 +13,14 @@ namespace trammel::references {
 
 namespace {
 
-/// Elastic buckling of one uniform column (S. P. Timoshenko, J. M. Gere, Theory of Elastic
-/// Stability, 2nd ed., chapter 2). End loads are P = x^2 EI/L^2, where x depends on the ends:
+/// Characteristic function of the elastic buckling of a uniform column (S. P. Timoshenko, J. M.
+/// Gere, Theory of Elastic Stability, 2nd ed., chapter 2). End loads are P = x^2 EI/L^2, where x
+/// depends on the ends:
 ///
 ///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
 ///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0.
 ///
-/// The weight of a clamped-free column is q L = (9/4) j^2 EI/L^2 with J_{-1/3}(j) = 0.
+/// The critical weight of a clamped-free column is q L = (9/4) j^2 EI/L^2 with J_{-1/3}(j) = 0.
 Real end_load_function(const std::string& ends, const Real& x) {
   if (ends == "clamped-free") return cos(x);
   if (ends == "pinned-pinned") return sin(x);
@@ -63,7 +64,7 @@ T follower_determinant(const T& W, const Follower& load) {
 /// which it occurs. The minimum is 0 if the roots meet, and positive beyond the flutter load.
 std::pair<Real, Real> lowest_value(const Follower& load) {
   const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
-  constexpr int kBits = 80;  // rounding limits the position of a minimum to half of the digits
+  constexpr int kBits = 80;  // round-off hides half of the digits of a minimum
   const auto [W, least] =
       boost::math::tools::brent_find_minima(determinant, Real(3), Real(24), kBits);
   return {least, W};
@@ -113,8 +114,9 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
-/// Returns a table of three dimensionless columns row by row, or only the column that the argument
-/// output names. Such a column is multiplied by length_m if it is a length.
+/// Returns a table of three dimensionless columns row by row. If the argument output names a
+/// column, returns only this column. A column of lengths is then multiplied by the argument
+/// length_m.
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {

@@ -10,9 +10,9 @@
 /// 23, 1972, 795-804.
 ///
 /// A section is at the point r and has the angle t, which is t0 in the undeformed chain. The part
-/// of the chain after the section exerts the force F and the moment m on it. Without EA a beam is
-/// inextensible, without GA it has no shear. With a = (cos t, sin t) and b = (-sin t, cos t), the
-/// derivatives with respect to the undeformed arc length are
+/// of the chain after the section exerts the force F and the moment m on it. A beam is inextensible
+/// if EA is absent, and has no shear deformation if GA is absent. With a = (cos t, sin t) and b =
+/// (-sin t, cos t), the derivatives with respect to the undeformed arc length are
 ///
 ///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F.
 namespace trammel::references {
@@ -42,10 +42,10 @@ struct Section {
 };
 
 struct Chain {
-  std::vector<std::vector<Real>> nodes;  ///< x, y
+  std::vector<std::vector<Real>> nodes;  ///< rows x, y [m]
   Real EI, axial_compliance, shear_compliance;
-  std::vector<std::vector<Real>> loads;  ///< node, Fx, Fy, M
-  std::array<bool, 3> end_held{};        ///< x, y, rotation
+  std::vector<std::vector<Real>> loads;  ///< rows: node, Fx, Fy, M
+  std::array<bool, 3> end_held{};        ///< true if x, y, rotation are fixed at the end
   bool start_turns = false;
   int steps = 8;
 };
@@ -73,8 +73,9 @@ void advance(const Chain& chain, const Real& h, Section& at) {
   at.angle = sum_at(angle, h), at.moment = sum_at(moment, h);
 }
 
-/// Returns the section after each node of the chain by integration from its start.
-/// @param unknown  angle or moment, Fx and Fy of the first section, then the load factor
+/// Returns the section at each node of the chain, after the loads on the node, by integration from
+/// the start of the chain.
+/// @param unknown  angle (free start) or moment of the first section, Fx, Fy, and the load factor
 std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   Section at{chain.nodes[0][0],
              chain.nodes[0][1],
@@ -101,8 +102,8 @@ std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   return sections;
 }
 
-/// Returns the residuals of the conditions at the end of the chain for x, y and rotation: the
-/// displacement if it is fixed, and otherwise the force or moment.
+/// Returns the residuals of the conditions for x, y and rotation at the end of the chain. Each
+/// residual is the displacement if the displacement is fixed, otherwise the force or moment.
 RealVector end_residual(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
   RealVector missing(3);

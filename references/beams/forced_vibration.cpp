@@ -28,7 +28,7 @@ const double kPi = std::acos(-1.0);
 /// Mode of vibration with its contributions to the static displacement and stress at mid-span.
 struct Mode {
   double w, damping;            ///< circular frequency [rad/s], damping ratio
-  double displacement, stress;  ///< static contributions [m], [Pa]
+  double displacement, stress;  ///< static, at mid-span [m], [Pa]
 };
 
 std::vector<Mode> modes(const Arguments& arguments) {
@@ -84,8 +84,8 @@ double amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) 
   }));
 }
 
-/// Returns the response of a mode to a unit step, relative to its static displacement. With the
-/// damping ratio d and v = w sqrt(1 - d^2), it is
+/// Returns the displacement of a mode after a unit step of the load, relative to its static
+/// displacement. With the damping ratio d and v = w sqrt(1 - d^2), it is
 ///
 ///   y = 1 - exp(-d w t)(cos(v t) + d w/v sin(v t)).
 ///
@@ -106,8 +106,8 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
-/// Returns the x between lo and hi at which f(x) is largest: the best point of a grid, refined by
-/// Brent's method.
+/// Returns the x between lo and hi at which f(x) is largest. Brent's method refines the best point
+/// of a grid.
 double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
   const double step = (hi - lo) / grid;
@@ -160,8 +160,9 @@ std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments) {
 
 /// Run-up of a rotor through the resonance of its carriage (F. M. Lewis, Vibration during
 /// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261). The total
-/// mass M on a spring of stiffness k has the angular frequency w, w^2 = k/M. The unbalance is m e,
-/// with a mass m at the radius e. The rotor has the prescribed angle a(t), and starts from rest at
+/// mass is M, and the spring has the stiffness k, so that the natural angular frequency is w, w^2 =
+/// k/M. The unbalance is m e, with a mass m at the radius e. The rotor has the prescribed angle
+/// a(t), and starts from rest at
 /// a(0) = 0. The displacement of the carriage is x. Integrating Duhamel's integral twice by parts
 /// gives
 ///

@@ -18,8 +18,8 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
   for (const Real& time : arguments.numbers("times_s")) {
     const Real half = k * boost::math::jacobi_cd(Real(abs(k)), Real(w * time));  // sin(theta/2)
     if (output == "tension") {
-      // The tension of the rod of a mass of 1 kg is g (3 cos theta - 2 cos theta_0), with the angle
-      // of release theta_0. It is computed from the sines of the half angles.
+      // With the angle of release theta_0, the tension of the rod of a mass of 1 kg is g (3 cos
+      // theta - 2 cos theta_0). It is computed from the sines of the half angles.
       values.push_back(arguments.positive("gravity_m_s2") * (1 - 6 * half * half + 4 * k * k));
       continue;
     }

@@ -13,7 +13,7 @@ namespace trammel::references {
 /// pairs [n, k]: the k-th elastic frequency with n waves around the circumference.
 [[nodiscard]] std::vector<Real> annular_plate_inplane_program(const Arguments& arguments);
 
-/// Computes critical end loads of a uniform column [N]. If the argument load is self-weight, it
+/// Computes critical end loads of a uniform column [N]. If the argument load is self-weight,
 /// computes the critical factors of the distributed weight instead. EI_N_m2, length_m and
 /// weight_N_per_m are 1 by default.
 [[nodiscard]] std::vector<Real> column_buckling_program(const Arguments& arguments);
@@ -38,8 +38,8 @@ namespace trammel::references {
 
 /// Computes the forced vibration of a simply supported Timoshenko beam under a uniform load. The
 /// damping is damping_ratio (of every mode), or rayleigh_mass_1_s and rayleigh_stiffness_s. The
-/// response is static, harmonic-peak (largest steady amplitude about the first mode) or step-peak
-/// (first maximum after the load is applied at once). Values, one per output: displacement_m
+/// argument response is static, harmonic-peak (largest steady amplitude near the first resonance)
+/// or step-peak (first maximum after a step load). Values, one per output: displacement_m
 /// (mid-span), stress_Pa (outer fiber at mid-span), frequency_Hz or time_s (of the peak
 /// displacement).
 [[nodiscard]] std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments);
@@ -48,7 +48,7 @@ namespace trammel::references {
 /// nodes_m: points [x, y] of the nodes; the first node is fixed in x and y.
 /// EI_N_m2, EA_N, GA_N: stiffnesses of all beams; EA_N and GA_N are infinite by default.
 /// start: rotation if the rotation of the first node is fixed, otherwise free.
-/// end: list of the fixed motions x, y and rotation of the last node, or free.
+/// end: list of the fixed motions of the last node (x, y, rotation), or free.
 /// loads: rows [node, Fx, Fy, M] of the loads at load factor 1. Nodes are numbered from 0.
 /// load_factors: load factors of the equilibria. Each solution starts from the previous one.
 /// limit_points (instead of load_factors): initial values of each limit point. They are the moment
@@ -68,8 +68,9 @@ namespace trammel::references {
 ///   v/L = 1 - 2 (E(k) - E(t, k)) / sqrt(P L^2/EI),
 ///   u/L = 1 - sqrt(2 sin phi / (P L^2/EI)).
 ///
-/// The argument load_parameter is an array of P L^2/EI > 0. Values: v/L, u/L, phi [rad] for each.
-/// With output "transverse", "shortening" (with length_m) or "angle": only v [m], u [m] or phi.
+/// The argument load_parameter is an array of P L^2/EI > 0. Values for each load: transverse tip
+/// displacement v/L, axial tip displacement u/L, phi [rad]. If the argument output is "transverse",
+/// "shortening" or "angle": only v [m], u [m] (both require length_m) or phi.
 [[nodiscard]] std::vector<Real> elastica_tip_force_program(const Arguments& arguments);
 
 /// Computes large deflections of a cantilever under an axial load F beyond the buckling load Fcr
@@ -78,8 +79,9 @@ namespace trammel::references {
 ///
 ///   F/Fcr = (2 K(k)/pi)^2,  height/L = 2 E(k)/K(k) - 1,  lateral/L = 2 k/K(k).
 ///
-/// Values for each tip angle: F/Fcr, lateral displacement/L, axial displacement/L. With output
-/// "load": only F/Fcr. With output "lateral" or "axial" and length_m: only this displacement [m].
+/// Values for each tip angle: F/Fcr, lateral displacement/L, axial displacement/L of the tip. If
+/// the argument output is "load": only F/Fcr. If it is "lateral" or "axial", with length_m: only
+/// this displacement [m].
 [[nodiscard]] std::vector<Real> elastica_column_program(const Arguments& arguments);
 
 /// Computes frequencies [Hz] of a clamped-clamped beam of the width b exp(-2 a x). The argument
@@ -87,19 +89,19 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> exponential_beam_program(const Arguments& arguments);
 
 /// Computes the motion of a chain of parallelogram loops. The argument start_speed_m_s is the speed
-/// of the upper ends of the rods. Values: x, y of the first rod's free end from its pivot [m], or
-/// their rates [m/s], for each time.
+/// of the upper ends of the rods. Values for each time: x, y of the free end of the first rod
+/// relative to its pivot [m], or the rates of x, y [m/s].
 [[nodiscard]] std::vector<Real> parallelogram_chain_program(const Arguments& arguments);
 
 /// Computes the motion of a plane pendulum that is released at rest at the angle a from the lower
 /// vertical, counterclockwise positive. With k = sin(a/2) and w = sqrt(g/l), the angle theta at the
-/// time t satisfies sin(theta/2) = k cd(w t, k), and the period is 4 K(k)/w. Values: the period
-/// [s]; or for each time x and y from the pivot [m], or the force of the rod on 1 kg, g (3 cos
-/// theta - 2 cos a) [N].
+/// time t satisfies sin(theta/2) = k cd(w t, k), and the period is 4 K(k)/w. Values, depending on
+/// the argument output: the period [s]; or for each time x and y of the mass relative to the pivot
+/// [m]; or for each time the force of the rod on 1 kg, g (3 cos theta - 2 cos a) [N].
 [[nodiscard]] std::vector<Real> pendulum_program(const Arguments& arguments);
 
 /// Computes the displacement x [m] of a carriage on a spring, in which an unbalanced rotor starts
-/// from rest. The angular frequency of carriage and spring is w (angular_frequency_rad_s). The
+/// from rest. The natural angular frequency of the carriage is w (angular_frequency_rad_s). The
 /// argument unbalance_m is m e/M, with the unbalanced mass m at the radius e and the total mass M.
 /// The rotor has the angle a. Its speed a' increases from 0 to W (speed_rad_s) during the time T
 /// (duration_s): a' = W (t/T - sin(2 pi t/T)/(2 pi)). The argument times_s is ascending and at most
@@ -140,15 +142,15 @@ namespace trammel::references {
 /// Rigid motions (b = 0) are omitted.
 struct BeamEnds {
   std::string kind = "clamped-free";
-  Real tip_mass_ratio = 0;     ///< mu [-]
-  Real tip_inertia_ratio = 0;  ///< j [-]
+  Real tip_mass_ratio = 0;     ///< mu = M/(rho A L) [-]
+  Real tip_inertia_ratio = 0;  ///< j = J/(rho A L^3) [-]
 };
 
 /// Reads the arguments ends, tip_mass_ratio and tip_inertia_ratio of a beam.
 [[nodiscard]] BeamEnds read_beam_ends(const Arguments& arguments);
 
 /// Returns the first `count` roots beta L > 0 of the characteristic equation [-], to 45 digits.
-/// @throws DerivationError  if fewer are found.
+/// @throws DerivationError  if fewer roots are found.
 [[nodiscard]] std::vector<Real> beam_roots(const BeamEnds& ends, int count);
 
 /// Computes the roots beta L of the characteristic equation of a uniform beam.

@@ -31,7 +31,7 @@ struct RotatingBeam {
   Real eta = 0;
   Real hub_ratio = 0;
   bool in_plane = false;
-  std::optional<Real> axial_ratio;  ///< s, for lag only; none: axially rigid
+  std::optional<Real> axial_ratio;  ///< s = EA L^2/EI, for lag; none: axially rigid
 };
 
 /// V'', V''' and U' at the tip of a rotating beam, for one solution of its equations. All three
@@ -83,9 +83,10 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
 /// Returns the first `count` natural frequencies mu of a rotating beam.
 std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
   // The solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional. Their
-  // determinant therefore loses log10 of this factor in digits, and 69 corresponds to 30 digits.
+  // determinant therefore loses as many digits as this factor has. The limit 69 is a loss of 30
+  // digits.
   if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69)
-    throw DerivationError("the beam rotates too fast: fewer than twenty digits are correct");
+    throw DerivationError("the beam rotates too fast to compute twenty correct digits");
   std::vector<Real> roots = first_roots([&](const Real& m) { return characteristic(beam, m); },
                                         Real("0.1"), Real("0.5"), count);
   if (!beam.in_plane || beam.axial_ratio) return roots;

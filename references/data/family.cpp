@@ -24,8 +24,8 @@ constexpr std::array<bool, 256> kStructural = [] {
   return table;
 }();
 
-/// Position in a JSON text. The functions `pass...` advance it and return false if the text does
-/// not continue as expected.
+/// Position in a JSON text. The functions `pass...` advance the position, and return false if the
+/// text does not contain the expected characters.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Reads family files. A family file contains the references of one family of cases, each under its
-/// id. Keys that most references have in common are stated once.
+/// id. It states keys that most of its references have in common only once.
 namespace trammel::references {
 
 /// Key of the object in a family file that contains the keys that its references have in common.
@@ -39,8 +39,8 @@ struct JsonMember {
 [[nodiscard]] std::optional<std::string_view> find_member(const std::vector<JsonMember>& members,
                                                           std::string_view key);
 
-/// Adds to a reference the common keys of its family that the reference does not have. If both have
-/// a derivation, the keys of the two derivations are merged.
+/// Adds the common keys of a family to a reference that lacks them. If both the common keys and the
+/// reference contain a derivation, the keys of the two derivations are merged.
 [[nodiscard]] nlohmann::json with_common_keys(const nlohmann::json& common,
                                               nlohmann::json reference);
 
@@ -48,9 +48,9 @@ struct JsonMember {
 /// @throws ReferenceError  if the file is not a JSON object of objects, or if a key is repeated.
 [[nodiscard]] std::map<std::string, nlohmann::json> read_family(const std::string& file);
 
-/// Returns the JSON files below a folder, each with its name without ".json"; none if there is no
-/// such folder. The function uses readdir, because std::filesystem needs 7,000 instructions per
-/// file, and every command lists these files when it starts.
+/// Returns the JSON files below a folder, each with its name without ".json"; none if the folder is
+/// absent. The function uses readdir, because std::filesystem needs 7,000 instructions per file,
+/// and every command lists these files when it starts.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 
@@ -61,7 +61,7 @@ struct FileText {
   std::string_view text;
 };
 
-/// Reads a file. The text is empty if there is no file, or if it cannot be read.
+/// Reads a file. The text is empty if the file is absent or cannot be read.
 [[nodiscard]] FileText read_file(const std::string& file);
 
 }  // namespace trammel::references

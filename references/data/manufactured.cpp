@@ -12,20 +12,20 @@ constexpr double kPi = 3.141592653589793238462643383279503;
 using boost::math::differentiation::autodiff_fvar;
 using boost::math::differentiation::make_fvar;
 
-/// Function of x and y: entry (i, j) is its derivative of order i in x and j in y.
+/// Derivatives of a function of x and y at a point: entry (i, j) has order i in x and order j in y.
 using Field = Eigen::Matrix3d;
 
 /// Function of x with its first four derivatives.
 using Shape = autodiff_fvar<double, 4>;
 
-/// Returns exp(k s) with its first two derivatives in s. For imaginary k, its real and imaginary
+/// Returns exp(k s) with its first two derivatives in s. For imaginary k, the real and imaginary
 /// parts are cosines and sines.
 Eigen::Vector3cd exponential(std::complex<double> k, double s) {
   return std::exp(k * s) * Eigen::Vector3cd(1, k, k * k);
 }
 
-/// Returns the displacements u and v of a membrane at a point [m]. Each is a sum of products of a
-/// function of x and a function of y.
+/// Returns the displacements u and v of a membrane at a point [m], with their derivatives. Each
+/// displacement is a sum of products of a function of x and a function of y.
 std::array<Field, 2> displacement(const MembraneProblem& problem, double x, double y) {
   const double a = problem.amplitude, p = 1 / problem.length, q = 1 / problem.height;
   const auto sine = [](double k, double s) { return exponential({0, k}, s).imag().eval(); };

@@ -12,7 +12,7 @@ namespace trammel::references::manufactured {
 /// Manufactured displacement fields of a membrane in plane stress on the rectangle 0 <= x <=
 /// length, 0 <= y <= height.
 enum class MembraneField {
-  clamped,         ///< trigonometric; zero on all four sides, only body forces
+  clamped,         ///< trigonometric; zero on all four sides, loaded by body forces only
   cantilever,      ///< trigonometric and exponential; zero at x = 0, tractions on other sides
   uniform_strain,  ///< linear displacement: the patch test of three-node triangles
   linear_strain,   ///< quadratic displacement: the patch test of six-node triangles
@@ -39,8 +39,8 @@ struct MembraneState {
 
 [[nodiscard]] MembraneState evaluate(const MembraneProblem& problem, double x, double y);
 
-/// Returns for u and for v at a point of the boundary: true if the problem fixes this displacement
-/// there. A fixed displacement is zero in the manufactured field.
+/// Returns two flags for u and v: true if the problem fixes this displacement at a boundary point.
+/// A fixed displacement is zero in the manufactured field.
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
                                                       double y);
 
@@ -62,21 +62,20 @@ struct BeamProblem {
   ShearStrain shear = ShearStrain::none;
   double EA = 0;                  ///< [N]
   double EI = 0;                  ///< [N m^2]
-  double kappa_GA = 0;            ///< [N]; not used without shear
+  double kappa_GA = 0;            ///< [N]; not used for Euler-Bernoulli
   double mass_per_length = 0;     ///< rho A [kg/m]
-  double inertia_per_length = 0;  ///< rho I [kg m]; not used without shear
+  double inertia_per_length = 0;  ///< rho I [kg m]; not used for Euler-Bernoulli
   double length = 0;              ///< [m]
   double amplitude = 0;           ///< size of the displacement [m]
   double omega = 0;               ///< [rad/s]
 };
 
-/// State of a beam at a point in its axes: x along the beam, y to its left. N = EA u', M = EI θ', V
-/// = kappa GA (v' - θ), or
-/// -M' without shear.
+/// Displacements, internal forces and loads at a point of a beam, in its axes: x along the beam, y
+/// to its left. N = EA u', M = EI θ', and V = kappa GA (v' - θ). For Euler-Bernoulli beams V = -M'.
 struct BeamState {
   double axial, deflection, rotation;               ///< u, v [m], θ [rad]
   double axial_force, shear_force, bending_moment;  ///< N, V [N], M [N m]
-  /// Loads n, q [N/m] and m [N m/m], by which the field satisfies the equations of motion
+  /// Loads n, q [N/m] and m [N m/m] that make the field satisfy the equations of motion
   /// N' + n + rho A omega^2 u = 0, V' + q + rho A omega^2 v = 0, M' + V + m + rho I omega^2 θ = 0.
   double axial_load, transverse_load, moment_load;
 };

@@ -81,8 +81,8 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     fail(place, "", "'uncertainty', or 'printed' digits that imply it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
-    // If the value differs from the printed number (corrected, or in another unit), the printed
-    // digits do not determine its uncertainty.
+    // If the stored value differs from the printed number (because it is corrected, or in another
+    // unit), the printed digits do not determine its uncertainty.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read))
       fail(place, "/printed/" + std::to_string(i),

@@ -21,9 +21,9 @@ struct Reference {
   std::string source;                    ///< key into references/bibliography.json
   std::string place;                     ///< location in the source, such as "Table 2, row 1"
   std::vector<std::string> printed;      ///< digits printed in the source; may be empty
-  std::string derivation;                ///< program and arguments in words; empty if none
+  std::string derivation;                ///< program and arguments as text; empty if none
   std::vector<std::string> errata;       ///< proved misprints and errors of the source
-  std::vector<std::string> ambiguities;  ///< missing or contradictory statements, other models
+  std::vector<std::string> ambiguities;  ///< what the source leaves open
   std::string notes;
   /// Probabilities of the interpretations ("readings") of a published model, as JSON text. The text
   /// is empty if the reference has no probabilities.
@@ -39,7 +39,7 @@ class ReferenceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a reference with all its keys, also those that its family has in common.
+/// Reads a reference with all its keys, including the common keys of its family.
 /// @param file  name of the file in messages
 /// @throws ReferenceError  if a key is missing or of the wrong type, or if 'printed' or the
 ///                         uncertainty has another number of items than 'values'. It is also thrown
@@ -55,7 +55,7 @@ class ReferenceError : public std::runtime_error {
 
 struct Source {
   std::string text;  ///< full citation
-  std::string doi;   ///< empty if there is none
+  std::string doi;   ///< empty if the source has no DOI
 };
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.

@@ -23,7 +23,7 @@
 ///   v = k^2 S,  psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S.
 ///   V = -(k^2 + g)(EI k^2 + w^2 rho I) C.
 ///
-/// Hyperbolic pairs are divided by cosh(k L/2), which avoids overflow.
+/// Hyperbolic C and S are divided by cosh(k L/2), which avoids overflow.
 namespace trammel::references {
 
 namespace {
@@ -33,7 +33,7 @@ namespace {
 template <class T>
 struct MemberStiffness {
   Eigen::Matrix<T, 3, 3> even = Eigen::Matrix<T, 3, 3>::Zero(), odd = even;
-  int clamped_below = 0;  ///< number of clamped frequencies below w
+  int clamped_below = 0;  ///< number of frequencies below w with clamped ends
 };
 
 /// Returns the number of integers n >= 1 with n pi / L < k, for the wave number k.
@@ -81,7 +81,7 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   MemberStiffness<T> result;
   result.even.template bottomRightCorner<2, 2>() = even_force * even_motion.inverse();
   result.odd.template bottomRightCorner<2, 2>() = odd_force * odd_motion.inverse();
-  // The number of frequencies of the member below w with pinned ends is known. Clamping both
+  // The number of frequencies below w with pinned ends follows from the wave numbers. Clamping the
   // rotations reduces it by the number of negative eigenvalues of the rotational stiffness.
   int pinned = waves_below(T(sqrt(-below)), m.length);
   if (above < 0) pinned += 1 + waves_below(T(sqrt(-above)), m.length);
@@ -91,7 +91,7 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
 
 /// Returns the dynamic stiffness of a member for axial and bending motions.
 /// @param w2  square of the circular frequency, > 0 [1/s^2].
-/// @param load_factor  multiplies the member's tension.
+/// @param load_factor  factor of the member's tension.
 template <class T>
 MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2, const T& load_factor) {
   using std::cos;

@@ -16,8 +16,8 @@
 ///   J(w) = J0(w) + s(D(w)).
 namespace trammel::references {
 
-/// Properties of a member as numbers of type T. The Wittrick-Williams count is evaluated with
-/// double, Real or Ball numbers.
+/// Properties of a member as numbers of type T (double, Real or Ball), for the Wittrick-Williams
+/// count in this number type.
 template <class T>
 struct MemberData {
   explicit MemberData(const FrameSection& s, const Real& L)
@@ -39,7 +39,7 @@ class DynamicStiffness {
   explicit DynamicStiffness(const Frame& frame);
 
   struct Count {
-    int below = 0;          ///< J
+    int below = 0;          ///< J, number of natural frequencies below w
     int clamped_below = 0;  ///< J0
     T log_determinant = 0;  ///< log |det D|
   };

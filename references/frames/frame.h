@@ -32,7 +32,7 @@ struct FrameMaterial {
 /// Reads a material from where[key] with "E_Pa", "rho_kg_m3" and "nu".
 [[nodiscard]] FrameMaterial read_material(const Arguments& where, const std::string& key);
 
-/// Returns a section with all compliances and inertias, whatever beam theory uses them.
+/// Returns a section with the compliances and inertias for every beam theory.
 /// @param half_depth  distance of the outermost fiber from the axis; 0 if it is unknown [m].
 [[nodiscard]] FrameSection timoshenko_section(const FrameMaterial& material, const Real& area,
                                               const Real& second_moment, const Real& half_depth,
@@ -103,11 +103,12 @@ struct FrameLoad {
 [[nodiscard]] FrameEnd read_end_fixity(const Json& value, const Arguments& where,
                                        const std::string& key);
 
-/// Constraint of a node: its rotation is `share` times the sum of the rotations of member ends.
+/// Constraint of a node: its rotation is `share` times the sum of the rotations of some member
+/// ends.
 struct RotationConstraint {
   int node = 0;
   Real share = 0;
-  std::vector<std::array<int, 2>> ends;  ///< member, and 0 (start) or 1 (end)
+  std::vector<std::array<int, 2>> ends;  ///< index of the member, and 0 (start) or 1 (end)
 };
 
 struct Frame {
@@ -121,8 +122,8 @@ struct Frame {
   std::vector<RotationConstraint> constraints;
   std::array<Real, 2> gravity{};  ///< [m/s^2]
 
-  [[nodiscard]] int find_node(const std::string& name) const;    ///< -1 if there is none
-  [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 if there is none
+  [[nodiscard]] int find_node(const std::string& name) const;    ///< -1 if absent
+  [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 if absent
 };
 
 struct MemberAxis {

@@ -114,7 +114,7 @@ void FrameCoordinates::eliminate_constraints(const std::vector<Row>& equations) 
     for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;
   }
   Eigen::FullPivLU<RealMatrix> lu(C);
-  lu.setThreshold(Real(1e-30));  // limit of pivots; equations may be linearly dependent
+  lu.setThreshold(Real(1e-30));  // smaller pivots count as 0: dependent equations
   N_ = lu.dimensionOfKernel() > 0 ? RealMatrix(lu.kernel()) : RealMatrix(size_, 0);
   N_ = (N_.array().abs() < Real(1e-40)).select(Real(0), N_);
 }

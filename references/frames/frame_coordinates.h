@@ -16,7 +16,7 @@ namespace trammel::references {
 /// Spring between the coordinates `from` and `to` of u. Its tension, stiffness * (u[to] - u[from]),
 /// acts positively on `from` and negatively on `to`.
 struct SpringElement {
-  int from, to;  ///< from -1: the ground
+  int from, to;  ///< indices in u; from = -1: the ground
   Real stiffness;
 };
 

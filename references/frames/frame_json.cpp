@@ -13,7 +13,7 @@ Arguments object_at(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
 }
 
-/// Returns the objects in the JSON object parent[key] with their names.
+/// Returns the objects in the JSON object parent[key], each with its name.
 std::vector<std::pair<std::string, Arguments>> objects_of(const Arguments& parent,
                                                           const std::string& key,
                                                           const std::vector<std::string>& known) {
@@ -55,7 +55,7 @@ Sections read_sections(const Arguments& model) {
   return result;
 }
 
-/// Returns the indices of the nodes that a key contains as one name or a list of names.
+/// Returns the indices of the nodes that object[key] names, as one name or a list of names.
 std::vector<int> nodes_at(const Frame& frame, const Arguments& object, const std::string& key) {
   const Json& names = object[key];
   std::vector<int> nodes;

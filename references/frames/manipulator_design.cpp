@@ -4,7 +4,7 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns the vertices of an equilateral triangle about a center, at 210, 330 and 90 degrees.
+/// Returns the vertices of an equilateral triangle, at 210, 330 and 90 degrees about its center.
 std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side) {
   const Real height = side / (2 * sqrt(Real(3)));  // distance of the center from the first edge
   return {{center[0] - side / 2, center[1] - height},
@@ -12,14 +12,12 @@ std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side)
           {center[0], center[1] + 2 * height}};
 }
 
-/// Returns true if the mass or inertia at a key is given as a number, not "from-density" or
-/// "from-mass".
+/// Returns true if object[key], a mass or inertia, is a number, not "from-density" or "from-mass".
 bool is_given(const Arguments& object, const std::string& key) {
   return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
 }
 
-/// Returns the mass [kg] or inertia [kg m^2] at a key if it is given as a number, otherwise
-/// `computed`.
+/// Returns the mass [kg] or inertia [kg m^2] object[key] if it is a number, otherwise `computed`.
 Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
   return is_given(object, key) ? object.positive(key) : computed;
 }
@@ -66,7 +64,7 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
     result.limbs[i].corner = corners[i];
     for (std::size_t c = 0; c < 2; ++c) center[c] += corners[i][c] / 3;
   }
-  Real squares = 0;  // sum over the distances of the corners from the center of mass
+  Real squares = 0;  // sum of squared distances of the corners from the center
   for (const auto& corner : corners) {
     const Real x = corner[0] - center[0], y = corner[1] - center[1];
     squares += x * x + y * y;
@@ -133,7 +131,7 @@ ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator) {
   const FrameMaterial m = read_material(manipulator, "material");
   const Arguments proximal = links_of_kind(manipulator, "proximal");
   const Arguments distal = links_of_kind(manipulator, "distal");
-  const Real side = manipulator.positive("base_side_m", 1);  // without base_m
+  const Real side = manipulator.positive("base_side_m", 1);  // used if base_m is absent
   const auto base = manipulator.has("base_m")
                         ? manipulator.points("base_m", 3)
                         : triangle({side / 2, side / (2 * sqrt(Real(3)))}, side);

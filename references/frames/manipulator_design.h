@@ -4,7 +4,7 @@
 
 #include "references/frames/frame.h"
 
-/// Data of a planar 3-RRR in the format of "manipulator" in case files:
+/// Data of a planar 3-RRR manipulator in the format of "manipulator" in case files:
 /// base_side_m or base_m.
 /// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
 /// inertia_kg_m2, beam, shear_coefficient, axial. The objects proximal and distal override these
@@ -24,8 +24,8 @@ template <class Number>
   return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
 }
 
-/// Returns the elbow of a limb: an intersection of the circles of the links about A and C. For mode
-/// -1, the elbow is on the clockwise side of the line from A to C.
+/// Returns the elbow of a limb: an intersection of the circles of the links about A and C. For the
+/// working mode -1, the elbow is on the clockwise side of the line from A to C.
 /// @throws DerivationError  if the circles do not intersect.
 template <class Number>
 [[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
@@ -34,7 +34,7 @@ template <class Number>
   const Number dy = C[1] - A[1];
   const Number r2 = dx * dx + dy * dy;
   const Real squares = proximal * proximal - distal * distal;
-  const Number along = (squares + r2) / (Real(2) * r2);  // fraction of the line A C
+  const Number along = (squares + r2) / (Real(2) * r2);  // foot of the elbow on A C / its length
   const Number height2 = Real(proximal * proximal) / r2 - along * along;
   if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
   const Number across = Real(mode) * sqrt(height2);
@@ -44,7 +44,7 @@ template <class Number>
 struct LinkNumbers {
   Real length = 0;
   Real mass = 0;
-  bool has_inertia = false;  ///< the inertia is given; if false, it is that of a thin rod
+  bool has_inertia = false;  ///< false: the inertia is that of a thin rod
   Real center = 0;           ///< distance of the center of mass from the first joint
   Real inertia = 0;          ///< about the center of mass [kg m^2]
   FrameSection section;

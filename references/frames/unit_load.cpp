@@ -19,8 +19,8 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
 }
 
 /// Matrices of the force method for the internal forces f of members and springs. B f + p are the
-/// forces on the coordinates, with the loads p. Phi f + phi0 are the deformations of members and
-/// springs, with the deformations phi0 due to distributed loads.
+/// resulting forces on the coordinates under the loads p. Phi f + phi0 are the deformations of
+/// members and springs, where phi0 are the deformations due to distributed loads.
 struct Equations {
   RealMatrix B, Phi;
   RealVector p, phi0;
@@ -143,9 +143,8 @@ void add_node_outputs(const Frame& frame, const FrameCoordinates& coordinates,
   values["deflection_m:" + name] = sqrt(x * x + y * y);
 }
 
-/// Adds the outputs of both ends of a member. The stress |N|/A + |M|/W, with the section modulus W,
-/// is its largest stress if the member has no distributed load. The largest value is then at an
-/// end.
+/// Adds the outputs at both ends of a member. If the member has no distributed load, its largest
+/// stress occurs at an end, and is |N|/A + |M|/W with the section modulus W.
 void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
                         const FrameStatics& statics, int index, Values& values) {
   const FrameMember& member = frame.members[index];

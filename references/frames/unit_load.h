@@ -24,8 +24,8 @@ struct MemberForces {
 };
 
 struct FrameStatics {
-  RealVector displacement;    ///< of each coordinate of FrameCoordinates(frame, false)
-  RealVector residual_force;  ///< force on each coordinate without reactions
+  RealVector displacement;    ///< displacements u of FrameCoordinates(frame, false)
+  RealVector residual_force;  ///< force on each coordinate, reactions excluded
   std::vector<MemberForces> members;
 };
 

@@ -71,7 +71,7 @@ Real counted_root(const CountingFunction& f, int index) {
   return refine_root(f, index, lo, hi);
 }
 
-/// Returns the frame with the axial forces of its members that its loads cause.
+/// Returns the frame with the axial forces that its loads cause, as tensions of its members.
 Frame with_axial_forces(Frame frame) {
   const FrameStatics statics = force_method_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
@@ -101,8 +101,8 @@ Real buckling_scale(const Frame& frame) {
   return scale;
 }
 
-/// Returns the number rounded to twelve significant digits. This removes the round-off of a sum, so
-/// that 0.1 + 0.2 is stored as the decimal 0.3.
+/// Returns the number rounded to twelve significant digits. Rounding removes the round-off of a
+/// sum, so that 0.1 + 0.2 is stored as the decimal 0.3.
 Json decimal(double value) {
   std::ostringstream text;
   text.precision(12);
@@ -204,8 +204,7 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const Frame frame = with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real w =
-      frequency_order_of_magnitude(frame) * Real(1e-11);  // w^2 changes a load factor by 1e-22
+  const Real w = frequency_order_of_magnitude(frame) * Real(1e-11);  // shifts load factors by 1e-22
   const auto coarse_w = static_cast<double>(frequency_order_of_magnitude(frame)) * 1e-3;
   if (fine.wittrick_williams(w, Real(1e-6) * buckling_scale(frame)).below > 0)
     throw DerivationError("the frame can move freely");

@@ -20,7 +20,8 @@ struct CountingFunction {
   double hi = 0;  ///< first upper end of the search, which is doubled
 };
 
-/// Returns the roots from `skipped` + 1 to `skipped` + `count` of a count, each to relative 1e-20.
+/// Returns the roots `skipped` + 1 to `skipped` + `count` of a counting function. Their relative
+/// errors are 1e-20.
 /// @throws DerivationError  if the count stays below `skipped` + `count`.
 [[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int skipped, int count);
 
@@ -29,8 +30,8 @@ struct FrameFrequencies {
   std::vector<Real> frequencies;  ///< elastic natural frequencies, ascending [Hz]
 };
 
-/// Returns the first `count` elastic natural frequencies of a frame, each to relative 1e-20.
-/// @throws DerivationError  if the frame has no mass or fewer frequencies are found.
+/// Returns the first `count` elastic natural frequencies of a frame with relative errors of 1e-20.
+/// @throws DerivationError  if the frame has no mass, or if fewer frequencies are found.
 [[nodiscard]] FrameFrequencies frame_frequencies(const Frame& frame, int count);
 
 /// Returns the lowest sqrt(EI/rho A)/L^2 of the members [rad/s]. It is an order of magnitude of the
@@ -48,15 +49,15 @@ struct FrameFrequencies {
 [[nodiscard]] std::vector<Real> frame_frequency_count_program(const Arguments& arguments);
 
 /// Computes derivatives of frequencies by central differences of `frame_frequencies` at step, step
-/// / 2 and step / 4, extrapolated twice. The error is O(step^6) plus 1e-20 over the step, because
-/// each frequency has the error 1e-20. Frequencies that remain repeated have a common derivative.
-/// The argument pointers is a list of JSON pointers to equal numbers in the arguments. The numbers
-/// change together by step. Values: [Hz / unit of the numbers], ascending in frequency.
+/// / 2 and step / 4, extrapolated twice. The error is O(step^6) plus 1e-20/step, because each
+/// frequency has the error 1e-20. Frequencies that remain repeated have a common derivative. The
+/// argument pointers is a list of JSON pointers to equal numbers in the arguments. All these
+/// numbers change by step together. Values: [Hz / unit of the numbers], ascending in frequency.
 [[nodiscard]] std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which a frame buckles. The axial
-/// forces of force_method_statics are multiplied by the factor, and natural frequencies are counted
-/// near w = 0. The count increases at each buckling load.
+/// forces of force_method_statics are multiplied by the factor. The number of natural frequencies
+/// below a small w increases at each buckling load.
 /// @throws DerivationError  if an axial force varies along its member.
 [[nodiscard]] std::vector<Real> frame_buckling_program(const Arguments& arguments);
 

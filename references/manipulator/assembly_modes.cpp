@@ -5,7 +5,8 @@
 #include "references/numerics/jet.h"
 #include "references/numerics/real.h"
 
-/// Computes all poses of a planar 3-RRR at given angles of its actuators, and proves that no other
+/// Computes all poses of a planar 3-RRR manipulator at given angles of its actuators, and proves
+/// that no other
 /// poses exist (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i,
 /// the joints c_i of the platform and D_i = B_i - R(phi) c_i, the platform's point P is on three
 /// circles about D_i. Eliminating x and y leaves a trigonometric polynomial Q(phi) of degree 3,
@@ -33,8 +34,8 @@ Point2<T> center(const Limbs& limbs, std::size_t i, const T& phi) {
   return {T(limbs.elbow[i][0]) - joint[0], T(limbs.elbow[i][1]) - joint[1]};
 }
 
-/// Returns (P - D_1) d and d. P is the intersection of two lines, each through the common points of
-/// two circles about D_i, and d is the determinant of the equations of the lines.
+/// Returns (P - D_1) d and d. P is the intersection of two lines. Each line contains the common
+/// points of two of the circles about D_1, D_2 and D_3. The determinant of the two lines is d.
 template <class T>
 std::pair<Point2<T>, T> meeting(const Limbs& limbs, const T& phi) {
   std::array<Point2<T>, 2> a;
@@ -74,7 +75,7 @@ Limbs read_limbs(const Arguments& arguments) {
 struct Search {
   const Arguments& arguments;
   const Limbs& limbs;
-  Real largest;  ///< bounds |Q|
+  Real largest;  ///< upper bound of |Q|
   std::vector<Real> zeros;
 
   [[nodiscard]] Real at(const Real& phi) const { return Q(limbs, phi); }
@@ -82,16 +83,16 @@ struct Search {
     return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
 
-  /// Adds the zero of the polynomial Q(phi), phi being the angle of the platform, in an interval in
-  /// which Q is monotonic, if there is one. A zero at the common end of two intervals is added
+  /// Adds the zero of the polynomial Q(phi) between the angles `from` and `to`, if Q has a zero
+  /// there. Q is monotonic in this interval. A zero at the common end of two intervals is added
   /// once.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));
   }
 
-  /// Adds the zeros of Q in an interval in which Q' is monotonic. If Q has an extremum, zeros on
-  /// both sides of it are added.
+  /// Adds the zeros of Q in an interval in which Q' is monotonic. If Q has an extremum, the zeros
+  /// below and above the extremum are added.
   void add_crossings(const Real& from, const Real& to) {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);
@@ -121,7 +122,7 @@ std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
   const Real h = 2 * pi<Real>() / kPoints;
   Real largest = 0;
   for (int i = 0; i < kPoints; ++i) largest = std::max(largest, Real(abs(Q(limbs, Real(h * i)))));
-  // Between two samples at the distance h, |Q| exceeds the largest sample by at most 3 max|Q| h/2.
+  // Between two samples at a distance of h, |Q| exceeds the largest sample by at most 3 max|Q| h/2.
   Search search{arguments, limbs, largest / (1 - 3 * h / 2), {}};
   search.find(-pi<Real>(), pi<Real>());
   return search.zeros;

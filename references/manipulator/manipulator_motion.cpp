@@ -6,7 +6,8 @@
 #include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
-/// Quantities of the motion of a rigid planar 3-RRR along a path or under constant torques.
+/// Quantities of the motion of a rigid planar 3-RRR manipulator along a path or under constant
+/// torques.
 namespace trammel::references {
 
 namespace {
@@ -39,7 +40,7 @@ class Instant {
   [[nodiscard]] Real value(const std::string& name) const {
     const auto found = values_.find(name);
     if (found == values_.end()) throw DerivationError("/outputs: '" + name + "': no such quantity");
-    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // only round-off
+    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // below: round-off
   }
 
  private:
@@ -172,7 +173,8 @@ std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWren
   return motions;
 }
 
-/// Integrates the actuators' |power| over a turn of the circle, between the zeros of the power.
+/// Integrates |power| of the actuators over one turn of the circular path, between zeros of the
+/// power.
 Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
                    const PlanarWrench& wrench) {
   const Arguments circle(trajectory["circle"], "/trajectory/circle");
@@ -185,7 +187,7 @@ Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
   for (int k = 1; k <= kIntervals; ++k) {
     const Real to = period * k / kIntervals, now = power(to);
     const Real zero = (before < 0) != (now < 0) ? refined_root(power, from, to) : to;
-    // Ten Gauss points on a 64th of a turn integrate the smooth power to about 30 digits.
+    // Ten Gauss points per 64th of a turn integrate the smooth power to about 30 digits.
     using Gauss = boost::math::quadrature::gauss<Real, 10>;
     work += abs(Gauss::integrate(power, from, zero));
     if (zero < to) work += abs(Gauss::integrate(power, zero, to));

@@ -9,10 +9,10 @@ namespace trammel::references {
 
 namespace {
 
-/// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without
-/// mass, with distal links hinged at both ends. Each limb acts on the platform like a bar along B C
-/// with the stiffness k. With the lengths l_p and l_d of the proximal and distal link, and the
-/// angle b between the links:
+/// Vibration of the platform of a planar 3-RRR manipulator about its motion along a path. The links
+/// have no mass, and the distal links are hinged at both ends. Each limb acts on the platform like
+/// a bar from the elbow B to the platform joint C with the stiffness k. With the lengths l_p and
+/// l_d of the proximal and distal link, and the angle b between the links:
 ///
 ///   1/k = l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b.
 ///
@@ -115,8 +115,8 @@ class Platform {
 struct History {
   std::vector<Real> time, factor;
 
-  /// Returns the load factor at the time t. It is computed from the linear segment of the load
-  /// history that contains the time `within`.
+  /// Returns the load factor at the time t. The linear segment of the load history that contains
+  /// the time `within` is extrapolated to t.
   [[nodiscard]] Real load_factor(const Real& t, const Real& within) const {
     const auto next = std::ranges::upper_bound(time, within);
     if (next == time.begin()) return factor.front();
@@ -136,10 +136,10 @@ void advance(const Platform& platform, const History& history, const Real& from,
   integrate(rate, x, from, to, static_cast<int>(ceil((to - from) * 4000)));
 }
 
-/// Vibration of a planar 3-RRR with links that have mass and very little stiffness, about its
-/// motion along a path. Each link is one cubic element of a Timoshenko beam, hinged at its elbow
-/// and at the platform. In the axes of the link, which turn with it, the nodal displacements d give
-/// the point
+/// Vibration of a planar 3-RRR manipulator about its motion along a path. The links have mass and
+/// very little stiffness. Each link is one cubic element of a Timoshenko beam, hinged at its elbow
+/// and at the platform. In the axes of the link, which rotate with the link, the nodal
+/// displacements d give the point
 ///
 ///   p(s, t) = p_nominal(s, t) + R(t) N(s) d(t).
 ///
@@ -166,14 +166,14 @@ Jet<Real> damped(const Jet<Real>& u, const Real& damping) {
 }
 
 /// Returns the shape functions of a Timoshenko beam element at x (0 to 1), with the rows u, v and
-/// rotation (Friedman and Kosmatka 1993).
+/// rotation and a column for each nodal displacement (Friedman and Kosmatka 1993).
 /// @param phi  shear parameter 12 EI/(kappa G A L^2)
 std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& phi) {
   const Real g = 1 / (1 + phi), y = 1 - x;
-  const auto lift = [&](const Real& z) {  // v of a unit displacement v at z = 0
+  const auto lift = [&](const Real& z) {  // v due to a unit v at z = 0
     return Real(g * (1 - 3 * z * z + 2 * z * z * z + phi * (1 - z)));
   };
-  const auto swing = [&](const Real& z) {  // v of a unit rotation at z = 0
+  const auto swing = [&](const Real& z) {  // v due to a unit rotation at z = 0
     return Real(g * length * z * (1 - z) * (1 - z + phi / 2));
   };
   const auto tilt = [&](const Real& z) { return Real(g * (1 - z) * (1 - 3 * z + phi)); };
@@ -210,7 +210,7 @@ class Link {
     const std::array<Jet<Real>, 6> d = {c * u[0] + s * u[1], c * u[1] - s * u[0], u[2],
                                         c * u[3] + s * u[4], c * u[4] - s * u[3], u[5]};
     Six f = Six::Zero();
-    constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton and Cotes
+    constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton-Cotes
     for (std::size_t p = 0; p < N_.size(); ++p) {
       const auto& N = N_[p];
       Jet<Real> along = Real(length_ * p / 6) + N[0][0] * d[0] + N[0][3] * d[3], across;
@@ -280,8 +280,8 @@ class Links {
   }
 
  private:
-  /// Nominal motion at one time: the pose of the platform, the arm from P to C and both links of
-  /// each limb.
+  /// Nominal motion at one time: the pose of the platform, and for each limb the vector from P to C
+  /// and the poses of both links.
   struct Nominal {
     std::array<Jet<Real>, 3> pose;
     std::vector<PointJet> arms;
@@ -321,8 +321,8 @@ class Links {
     return r;
   }
 
-  /// Returns the residual of the platform's equation of motion, with damping. The vector s points
-  /// from P to its center of mass.
+  /// Returns the residual of the platform's equations of motion, with damping. The vector s points
+  /// from P to the center of mass of the platform.
   [[nodiscard]] Coordinates platform_residual(const Nominal& now, const SystemMotion& q) const {
     const PointJet s = rotated(numbers_.platform_center, now.pose[2]);
     const Jet<Real> turn = damped(q[2], damping_);
@@ -345,7 +345,7 @@ class Links {
   std::vector<std::array<Link, 2>> links_;
 };
 
-/// Returns the states of a manipulator at the times. If the links rotate by about 1 rad, twelve
+/// Returns the states of the manipulator at given times. If the links rotate by about 1 rad, twelve
 /// integration steps of order 8 have an error of 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // steps between two successive times

@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<std::vector<Real>>;
 
-/// Training sample: torques, and angles and velocities of the active joints, at one time.
+/// Training sample: torques, angles and velocities of the active joints at one time.
 struct Sample {
   std::vector<Real> torques, joints;
 };

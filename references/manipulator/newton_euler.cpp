@@ -8,7 +8,7 @@ namespace trammel::references {
 namespace {
 
 /// Columns of the unknowns of a limb: the forces of the base on the proximal link (at A), of the
-/// proximal on the distal link (at B), of the distal link on the platform (at C), and the torque.
+/// proximal link on the distal link (at B), of the distal link on the platform (at C); the torque.
 enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 
 /// Equations of motion of one body: force balance, and moment balance about its center of mass.

@@ -5,7 +5,8 @@
 #include "references/frames/manipulator_design.h"
 #include "references/numerics/jet.h"
 
-/// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
+/// Inverse dynamics of the planar 3-RRR manipulator by the laws of Newton and Euler for each of its
+/// seven
 /// bodies: 21 equations for the forces in the nine joints and the three torques. The class Jet
 /// differentiates the motions. The derivation uses no Lagrangian, no Jacobian and no mass matrix.
 namespace trammel::references {

@@ -5,7 +5,8 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Programs that derive motions of the planar 3-RRR, and estimates of these motions. programs.txt
+/// Programs that derive motions of the planar 3-RRR manipulator, and estimates of them.
+/// programs.txt
 /// lists their arguments. Only arguments that need an explanation are described in this file.
 namespace trammel::references {
 
@@ -29,9 +30,9 @@ namespace trammel::references {
 /// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
 [[nodiscard]] std::vector<Real> manipulator_torques_program(const Arguments& arguments);
 
-/// Computes all poses of the platform at given angles of the actuators, or their number. Arguments:
-/// base_m, platform_m (three points [x, y] each), proximal_m, distal_m, angles_rad (three numbers
-/// each). Values: the number, or x, y, phi of each pose, ascending in phi.
+/// Computes all poses of the platform at given angles of the actuators, or the number of poses.
+/// Arguments: base_m, platform_m (three points [x, y] each), proximal_m, distal_m, angles_rad
+/// (three numbers each). Values: the number of poses, or x, y, phi of each pose, ascending in phi.
 /// @throws DerivationError  if two poses are equal, or if three poses are too close for the proof.
 [[nodiscard]] std::vector<Real> assembly_modes_program(const Arguments& arguments);
 
@@ -41,20 +42,20 @@ namespace trammel::references {
 /// kinetic_energy_J, actuator_power_W, torque_N_m:A1, parallel_singularity_distance,
 /// cycle_absolute_work_J, ...), at_rest (true: the path is a series of static poses without
 /// weight), torque_N_m (constant torques at A1, A2, A3, under which the manipulator moves from the
-/// start of the path). Values: the first output at all times, then the second.
+/// start of the path). Values: the first output at all times, then the second output.
 [[nodiscard]] std::vector<Real> manipulator_motion_program(const Arguments& arguments);
 
 /// Computes the vibration of a manipulator with soft links that have mass, about its motion along a
-/// path. The load acts at P. The first of times_s is the start, at rest. Outputs:
+/// path. The load acts at P. The vibration starts at rest at the first of times_s. Outputs:
 /// displacement_x_m:P, displacement_y_m:B1, platform_rotation_rad, torque_N_m:A1, ...
-/// Values: the first output at all times, then the second.
+/// Values: the first output at all times, then the second output.
 [[nodiscard]] std::vector<Real> link_vibration_program(const Arguments& arguments);
 
 /// Computes the vibration of a platform on elastic links without mass, about its motion along a
 /// path. The load acts at P. Its factor load_history (time_s, factor) is linear between the times,
-/// and constant outside. The first of times_s is the start, at rest. Output: displacement_x_m,
-/// displacement_y_m, platform_rotation_rad, kinetic_energy_J, axial_force_N:B1-C1 ... or
-/// torque_N_m:A1 .... Values: the output at each time.
+/// and constant before the first and after the last time. The vibration starts at rest at the first
+/// of times_s. Output: displacement_x_m, displacement_y_m, platform_rotation_rad, kinetic_energy_J,
+/// axial_force_N:B1-C1 ... or torque_N_m:A1 .... Values: the output at each time.
 [[nodiscard]] std::vector<Real> platform_vibration_program(const Arguments& arguments);
 
 /// Computes the estimates of a general regression neural network at each query. Arguments: inputs,

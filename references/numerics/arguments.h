@@ -42,7 +42,7 @@ class Arguments {
                                  const std::vector<std::string>& known) const;
 
   // Numbers are returned exactly as the decimal numbers in the file: 0.0015 is 15/10000, not the
-  // nearest double. This also applies to positive() and the other functions below.
+  // nearest double. This also applies to positive() and to the other functions that return Real.
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;

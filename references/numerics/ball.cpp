@@ -23,7 +23,7 @@ Ball Ball::middle() const {
 
 std::string Ball::digits() const {
   constexpr slong kDigits = 30;
-  if (arb_rel_accuracy_bits(x_) < 104)  // 31 digits and a bit
+  if (arb_rel_accuracy_bits(x_) < 104)  // 104 bits: 31 digits
     throw DerivationError("the enclosure is too wide to prove 30 digits");
   const std::unique_ptr<char, void (*)(void*)> text(
       arb_get_str(middle().x_, kDigits, ARB_STR_NO_RADIUS | ARB_STR_MORE), flint_free);

@@ -28,7 +28,7 @@ class Ball {
   /// Returns the center of the ball as an exact number.
   [[nodiscard]] Ball middle() const;
   /// Returns the number with 30 digits, such as "1.87510406871196116644530824107".
-  /// @throws DerivationError  if the ball is wider than a tenth of the last digit.
+  /// @throws DerivationError  if the radius is too large to determine 30 digits.
   [[nodiscard]] std::string digits() const;
   /// Returns the only integer in the ball.
   /// @throws DerivationError  if the ball contains no or several integers.

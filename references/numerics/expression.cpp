@@ -56,7 +56,7 @@ class Parser {
     return true;
   }
 
-  /// Evaluates operators of at least a rank: rank 1 for + and -, rank 2 for * and /.
+  /// Evaluates operators whose precedence is at least `rank`: 1 for + and -, 2 for * and /.
   Real operation(int rank) {
     if (rank > 2) return power();
     Real value = operation(rank + 1);

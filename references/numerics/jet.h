@@ -6,14 +6,14 @@
 /// of differentiation, so that formulas of positions also yield velocities and accelerations.
 namespace trammel::references {
 
-/// @tparam T  scalar type: Real, or any number with + - * / sqrt, sin and cos.
+/// @tparam T  scalar type: Real, or another type with + - * / sqrt, sin and cos.
 template <class T>
 struct Jet {
   T value = 0, rate = 0, acceleration = 0;
 
   Jet() = default;
-  Jet(const T& constant) : value(constant) {}  // NOLINT(google-explicit-constructor): a number
-  Jet(int constant) : value(constant) {}       // NOLINT(google-explicit-constructor): a number
+  Jet(const T& constant) : value(constant) {}  // NOLINT(google-explicit-constructor)
+  Jet(int constant) : value(constant) {}       // NOLINT(google-explicit-constructor)
   Jet(const T& v, const T& r, const T& a) : value(v), rate(r), acceleration(a) {}
 
   [[nodiscard]] friend Jet operator-(const Jet& a) { return {-a.value, -a.rate, -a.acceleration}; }

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-/// Extended precision for derived references: 50 decimal digits. Results are rounded to a double.
-/// Roots of characteristic equations are computed in this precision.
+/// Extended precision (50 decimal digits) for derived references. Roots of characteristic equations
+/// are computed in this precision, and the results are rounded to double.
 namespace trammel::references {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type,
@@ -37,7 +37,7 @@ template <class T>
 
 /// Returns the first `count` sign changes of `f` above `start`, found on a grid with the given
 /// spacing. The caller ensures that the spacing is smaller than the distance between two roots.
-/// @throws DerivationError  if fewer are found below start + 1e5 steps.
+/// @throws DerivationError  if fewer sign changes are found below start + 1e5 steps.
 [[nodiscard]] std::vector<Real> first_roots(const std::function<Real(const Real&)>& f,
                                             const Real& start, const Real& spacing, int count);
 

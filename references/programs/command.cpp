@@ -141,7 +141,7 @@ Comparison compare_with_derivation(const Json& json, const std::string& file,
     if (!result.printed.empty()) result.proved = prove(result.program, derivation["arguments"]);
   } catch (const DerivationError& error) {
     const std::string message = error.what();
-    const bool is_pointer = message.rfind('/', 0) == 0;  // pointer into the arguments
+    const bool is_pointer = message.rfind('/', 0) == 0;  // JSON pointer into the arguments
     throw DerivationError(
         (is_pointer ? derivation.pointer("arguments") : file + ": /" + id + "/derivation: ") +
         message);

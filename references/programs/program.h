@@ -42,7 +42,7 @@ struct Comparison {
   std::string unit;
   std::vector<double> stored;
   std::vector<double> uncertainty;           ///< absolute uncertainty of each value
-  std::vector<double> derived;               ///< empty if there is no derivation
+  std::vector<double> derived;               ///< empty if the reference has no derivation
   std::vector<std::string> printed, proved;  ///< stored and derived digits of kind "proved"
 
   /// Returns true if every derived value lies within the stated uncertainty of the stored value,

@@ -5,8 +5,8 @@
 
 /// Natural frequencies as proved enclosures. In ball arithmetic, rounding cannot change the count
 /// of Wittrick and Williams, which is an integer. If the counts at two frequencies differ by m,
-/// then m natural frequencies lie between these. A proof relies on the theorem of Wittrick and
-/// Williams, on the formulas of `dynamic_stiffness.cpp` and on Arb.
+/// then m natural frequencies lie between these two frequencies. A proof relies on the theorem of
+/// Wittrick and Williams, on the formulas of `dynamic_stiffness.cpp` and on Arb.
 namespace trammel::references {
 namespace {
 
@@ -45,8 +45,8 @@ class Proof {
   }
 
   /// Encloses the next x at which the count of natural frequencies increases, by bisection to its
-  /// 32nd digit. The count does not change between the previous enclosure and this one, so that no
-  /// frequency is missed.
+  /// 32nd digit. The count does not change between the previous enclosure and the new enclosure, so
+  /// that no frequency is missed.
   /// @param x  approximation of the result
   Passage next(const Ball& x) {
     Ball width = x * Ball(Real("1e-18"));

@@ -26,7 +26,7 @@ namespace trammel::reports {
 [[nodiscard]] std::string lc(const std::string& color);
 
 /// Collects the data and commands of one figure. All texts of results pass through
-/// `gnuplot_string`, so that they cannot become commands.
+/// `gnuplot_string`, so that a text cannot become a command.
 class PlotScript {
  public:
   /// Rows of data points. An empty row interrupts a curve.
@@ -46,7 +46,7 @@ class PlotScript {
   /// @param place  position and options of gnuplot: "graph 0.1,0.2 left"
   void label(const std::string& text, const std::string& place);
 
-  /// Plots the curves that were added since the last call. At least one curve is required.
+  /// Plots all curves that were added since the last call. At least one curve is required.
   void plot();
 
   /// Places the key (legend) below the plot, in as many columns as the titles permit.

@@ -113,7 +113,7 @@ std::string without_idle_groups(std::string text) {
   replace_all(text, "</g>", "\n</g>\n");
   constexpr auto kNoTag = std::string::npos;
   std::vector<std::string> kept;
-  std::vector<std::size_t> groups;  // the lines that open the current groups
+  std::vector<std::size_t> groups;  // lines that open the enclosing groups
   for (std::string& line : lines_of(text)) {
     const bool closes = line == "</g>";
     const std::size_t start = closes && !groups.empty() ? groups.back() : kNoTag;

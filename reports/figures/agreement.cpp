@@ -38,8 +38,8 @@ std::vector<PrintedRow> printed_rows(const Run& run) {
   return rows;
 }
 
-/// Returns the expanded uncertainty of a computed value from discretization and inputs, in the unit
-/// of the value.
+/// Returns the expanded uncertainty of a computed value due to discretization and inputs, in the
+/// unit of the value.
 double uncertainty_of(const Run& run, const Check& check) {
   const Comparison* found = find_comparison(run, check);
   return found ? 2 * std::hypot(found->u_num.value_or(0), found->u_input.value_or(0)) : 0;

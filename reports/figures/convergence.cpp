@@ -71,8 +71,8 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
 }
 
-/// Draws a line with the theoretical slope below the asymptotic range of the first curve that has
-/// one.
+/// Draws a line with the theoretical slope below the asymptotic range of a curve. Selects the first
+/// curve with an asymptotic range.
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   PlotScript::Rows line;
   for (const Convergence* c : sweeps) {

@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of figures of shapes of a case
+constexpr std::size_t kMaxDrawnVariants = 12;  ///< maximum number of figures of shapes in a case
 
 /// Plans the figures of a case. The page shows the sketch and up to three more figures: effects,
 /// the first of the values (compared values, or a request of the case), the motion or the shapes of

@@ -20,7 +20,7 @@ struct Gallery {
 struct Family {
   std::string id, title;
   std::string group = {};    ///< title of a group of families on the front page
-  std::size_t position = 0;  ///< place in the report
+  std::size_t position = 0;  ///< position of the family in the report
   std::vector<const CaseInfo*> cases = {};
   std::vector<const Run*> runs = {};
   std::vector<Figure> overview = {};

@@ -47,7 +47,7 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
   if (field.cells.empty()) return field;
   field.dx = spacing(xs);
   field.dy = spacing(ys);
-  if (field.dx == 0) field.dx = field.dy;  // one column or row: square cells
+  if (field.dx == 0) field.dx = field.dy;  // one column or row: cells are square
   if (field.dy == 0) field.dy = field.dx;
   std::ranges::sort(field.cells, [&](const Cell& a, const Cell& b) {
     return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
@@ -72,7 +72,7 @@ std::vector<double> class_limits(std::vector<double> sorted) {
 }
 
 /// Returns the boxes of a map for each color. Each box is a row with the coordinates of its center
-/// and its edges. Adjacent cells of the map in one line with the same color share one box.
+/// and its edges. Adjacent cells with the same color in one row of the map share one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -103,7 +103,7 @@ const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& ru
 }
 
 /// Returns the values of all maps of the case that show the same quantity, so that a color has the
-/// same meaning in all of them.
+/// same meaning in all these maps.
 std::vector<double> values_of_all_maps(const CaseInfo& info, const PlotRequest& request,
                                        const std::vector<const Run*>& runs, const Field& own) {
   const auto name = [](const PlotRequest& map) { return map.value.substr(0, map.value.find(':')); };
@@ -138,7 +138,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
     const PlotRequest::Line& line = request.lines[i];
     const std::vector<double>* x = run.quantity(line.x);
     const std::vector<double>* y = run.quantity(line.y);
-    if (!x || !y) continue;  // the run has no such line
+    if (!x || !y) continue;  // the run has no values of this line
     const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
     script.curve(line_rows(*x, *y), style);
     script.key_entry(style, line.title);

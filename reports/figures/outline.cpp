@@ -30,7 +30,7 @@ bool is_counterclockwise(const std::vector<int>& triangle, const std::vector<Poi
 }
 
 /// A side of a triangle in counterclockwise order, with its middle node if there is one, and the
-/// number of triangles that have it.
+/// number of triangles that contain the side.
 struct Side {
   std::vector<int> nodes;
   int uses = 0;

@@ -18,8 +18,8 @@ namespace trammel::reports {
 /// Returns all edges of a coarse mesh of triangles, or the outline of a fine mesh.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges(const Drawing& drawing);
 
-/// Returns the edges inside the outline. Empty for a coarse mesh, and for a mesh that is too fine
-/// to be visible in a figure with this number of panels.
+/// Returns the edges of triangles inside the outline of a mesh. Empty for a coarse mesh, and for a
+/// mesh that is too fine to be visible in a figure with this number of panels.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges_inside(const Drawing& drawing,
                                                                   std::size_t panels = 1);
 
@@ -30,7 +30,7 @@ namespace trammel::reports {
 /// Returns closed loops of node numbers: triangles of a coarse mesh, or the outline of a fine mesh.
 [[nodiscard]] std::vector<std::vector<int>> filled_loops(const Drawing& drawing);
 
-/// Returns the rows with which gnuplot fills these loops.
+/// Returns the data rows with which gnuplot fills the loops of `filled_loops`.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 
@@ -43,8 +43,9 @@ struct Box {
   Interval x, y;
   [[nodiscard]] double width() const { return x.length(); }
   [[nodiscard]] double height() const { return y.length(); }
-  [[nodiscard]] double side() const { return std::max(width(), height()); }  ///< the longer one
+  [[nodiscard]] double side() const { return std::max(width(), height()); }  ///< longer side
 };
+/// Returns the smallest box around all points, enlarged by a margin.
 /// @param margin      width of the margin around the points, relative to the longer side
 /// @param min_aspect  smallest ratio of the shorter to the longer side, before the margin
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
@@ -65,7 +66,7 @@ void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Poi
 /// Returns the title `what`, followed by the title of the variant if it is not the base variant.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 
-inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflection to longer side
+inline constexpr double kDrawnAmplitude = 0.13;  ///< largest drawn deflection / longer side
 
 [[nodiscard]] bool are_finite(const std::vector<Point>& points);
 

@@ -22,7 +22,7 @@ double factor_for(const Shape& shape, double side) {
   return largest > 0 && std::isfinite(largest) ? kDrawnAmplitude * side / largest : 0;
 }
 
-/// Place of a shape in the figure [px], with y downwards. The width of the box fills the panel.
+/// Position of a shape in the figure [px], with y downwards. The width of the box fills the panel.
 struct Panel {
   Box box;
   double left, top, width;
@@ -34,7 +34,7 @@ struct Panel {
     std::string out;
     for (const auto& line : lines)
       for (std::size_t i = 0; i < line.size(); ++i) {
-        if (i % (1 + line.size() / 200) != 0 && i + 1 != line.size()) continue;  // not visible
+        if (i % (1 + line.size() / 200) != 0 && i + 1 != line.size()) continue;  // too fine
         const auto& [x, y] = nodes[static_cast<std::size_t>(line[i])];
         out += fmt::format("{}{:.4g},{:.4g}", i == 0 ? 'M' : ' ', left + scale * (x - box.x.low),
                            top + scale * (box.y.high - y));
@@ -164,7 +164,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   const double fastest = hertz.empty() ? 0 : std::ranges::max(hertz);
   double slowest = fastest;
   for (const double f : hertz) slowest = f > kRigid * fastest ? std::min(slowest, f) : slowest;
-  const double slowed = std::max(2 * slowest, 0.25 * fastest);  // to 0.5 Hz, but at most 4 Hz
+  const double slowed = std::max(2 * slowest, 0.25 * fastest);  // to at most 0.5 Hz and 4 Hz
   std::string svg, motion;
   for (std::size_t s = 0; s < n; ++s) {
     const std::size_t row = s / columns;

@@ -38,9 +38,9 @@ std::string conclusion(const std::vector<EffectScene>& scenes) {
   }
   return std::to_string(within) + " of " + count(scenes.size(), "scene") +
          " stay within the tolerance (below the line). In " + std::to_string(minimal) +
-         ", no selected effect could be left out. Selecting and running took " +
+         " of the scenes, no selected effect can be omitted. Selection and run took " +
          trimmed(all_effects_s > 0 ? selected_s / all_effects_s : 0, 3) +
-         " times as long as running with all effects.";
+         " times as long as the runs with all effects.";
 }
 
 /// Returns the caption of the figure of the calls of trammel.
@@ -170,7 +170,7 @@ Figure error_coverage_figure() {
   return scatter({.id = "error-coverage",
                   .title = "Stated against true discretization errors",
                   .caption = "Stated against true errors in the catalogue, rounded to fifths of "
-                             "decades. The statement covers the true errors above the line.",
+                             "decades. Above the line, the stated error covers the true error.",
                   .data = std::move(table)},
                  {{"errors", points}}, "true error", "stated error", "stated = true");
 }

@@ -99,7 +99,8 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
          "\u202f% of its tolerance (" + worst->label + ").";
 }
 
-/// Sets the y axis and writes labels above the lines of their rows, so that they need no margin.
+/// Sets the y axis and writes labels above the lines of their rows, so that the labels
+/// need no margin.
 void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows, bool with_labels) {
   script.command("unset ytics; set border 1; set lmargin 2; set rmargin 3");
   script.command("unset grid; set grid xtics" + lc(palette::kGrid) + " lw 1 lt 1");

@@ -25,7 +25,7 @@ struct Code {
   double wall_s = 0;
 };
 
-/// One variant of a case with its run by each code. The run is null if a code did not run it.
+/// One variant of a case with its run by each code. A null pointer marks a code without this run.
 struct Row {
   const CaseInfo* info = nullptr;
   std::string variant;
@@ -64,7 +64,8 @@ std::vector<Row> plan_rows(const std::vector<Code>& codes) {
   return rows;
 }
 
-/// Returns the check of `run` with the name, quantity and index of the check `like`, or null.
+/// Returns the check of `run` with the name, quantity and index of the check `like`; null if `run`
+/// has no such check.
 const Check* find_check(const Run& run, const Check& like) {
   for (const Check& check : run.checks)
     if (check.name == like.name && check.quantity == like.quantity && check.index == like.index &&

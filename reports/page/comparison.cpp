@@ -26,8 +26,8 @@ std::string signed_percent(const Number& percent) {
   return percent ? with_sign(*percent, 3) + "\u202f%" : "";
 }
 
-/// Returns the label of one of the compared sets of results ("sides"). If code, commit, date or
-/// processor differ between the sides, they follow the label.
+/// Returns the label of one of the compared sets of results ("sides"). The label is followed by the
+/// code, commit, date and processor of the side, as far as they differ between the sides.
 std::string side_text(const SideComparison& comparison, const ComparedSide& side) {
   std::string text = side.label;
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
@@ -107,7 +107,7 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
 /// differs between the compared sides.
 std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
-  std::set<std::string> drawn = {"time_s"};  // the x axis of other series
+  std::set<std::string> drawn = {"time_s"};  // time is the x axis of other series
   for (PlotRequest request : run.info.figures) {
     if (!request.value.empty()) continue;
     request.variants.clear();

@@ -11,8 +11,8 @@
 namespace trammel::reports {
 
 /// Writes a report of complete results into `out`: `index.html`, a page for each family and case,
-/// and figures (SVG) with their data (CSV). Files are first written to a folder of unfinished
-/// files. At the end, all files of this folder replace an earlier report. If writing fails, the
+/// and figures (SVG) with their data (CSV). Files are first written to a temporary folder. At
+/// the end, all files of the temporary folder replace an earlier report. If writing fails, the
 /// earlier report does not change.
 /// @returns the path of `index.html`.
 std::filesystem::path write_report(const Results& results, const std::filesystem::path& out);
@@ -31,8 +31,8 @@ std::filesystem::path write_code_comparison(const std::vector<std::filesystem::p
 
 /// Writes results as JUnit XML: a testsuite for each case, a testcase for each check of a run, and
 /// one with the name "status" for each run. The names do not depend on the outcome. A known
-/// discrepancy is skipped with the type trammel.known-discrepancy, a check that was not run with
-/// trammel.not-run. The system-out contains values, reasons and warnings.
+/// discrepancy has the element `skipped` of type trammel.known-discrepancy; a check without a run
+/// has it with type trammel.not-run. The system-out contains values, reasons and warnings.
 void write_junit(const results::Results& results, const std::filesystem::path& junit_xml);
 
 }  // namespace trammel::reports

@@ -61,8 +61,8 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
                   {},
                   count_of(row.readings, "reading") + " in " +
                       count_of(row.classes, "class", "classes") +
-                      ". The numbers of the row cannot distinguish the readings of a class. " +
-                      count_of(row.credible_classes, "class holds", "classes hold") +
+                      ". The readings of a class predict the same numbers for the row. " +
+                      count_of(row.credible_classes, "class has", "classes have") +
                       " 95\u202f% of the probability."};
   const auto add_row = [&](const std::string& title, const std::string& probability,
                            const Numbers& values) {
@@ -93,7 +93,7 @@ std::string values_text(const std::vector<double>& values) {
   return text;
 }
 
-/// Returns the values of a quantity with the largest estimated error, if there is an estimate.
+/// Returns the table row of a quantity: its values, and its largest estimated error if available.
 std::vector<std::string> result_row(const std::string& name, const std::vector<double>& values,
                                     const ErrorEstimate* estimate) {
   const QuantityLabel quantity = parse_quantity(name);
@@ -141,7 +141,7 @@ TextTable inputs_table(const CaseInfo& info) {
     const std::string object = slash == std::string::npos ? "model" : path.substr(0, slash);
     if (std::exchange(last, object) != object) table.rows.push_back({object});
     const QuantityLabel input = parse_quantity(path.substr(slash + 1));
-    const std::string unit = value[0] >= 'a' ? "" : input.unit;  // a word has none
+    const std::string unit = value[0] >= 'a' ? "" : input.unit;  // texts have no unit
     const std::string shown = value.ends_with("0.0") ? trimmed(std::stod(value), 10) : value;
     table.rows.push_back({input.label, shown, unit, source.empty() ? "this case" : source});
   }

@@ -54,7 +54,7 @@ std::string measured_range_text(const ClaimInterpretation& interpretation) {
 }
 
 /// Returns the interpretation that decides the verdict on a claim: the first one that contradicts
-/// the claim, or else the first one.
+/// the claim, or else the first interpretation.
 ClaimInterpretation deciding_interpretation(const std::vector<ClaimInterpretation>& all) {
   if (all.empty()) return {};
   const auto found = std::ranges::find(all, "contradicts", &ClaimInterpretation::verdict);
@@ -134,7 +134,7 @@ std::string overview(const Claims& claims) {
         claims.claims, [&](const Claim& claim) { return claim.verdict == style.verdict; });
     if (n > 0) add_item(text, std::to_string(n) + " " + style.verdict);
   }
-  return count(claims.claims.size(), "claim") + ": " + text + ". Fixed rules decide.";
+  return count(claims.claims.size(), "claim") + ": " + text + ". Fixed rules decide each verdict.";
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr double kFullColorDifference = 0.4;  ///< relative difference with the darkest color
-constexpr double kTargetReached = 0.01;       ///< largest difference of a reached target
+constexpr double kFullColorDifference = 0.4;  ///< difference above which the color is darkest
+constexpr double kTargetReached = 0.01;       ///< largest relative difference of a reached target
 
 /// A check, and the comparison of its difference with the validation uncertainty if there is one.
 struct MatrixCell {
@@ -239,7 +239,7 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
        {"rows", list_of(subject.rows, row)}});
 }
 
-/// Returns whether a matrix is shown. It needs many variants or validation uncertainties.
+/// Returns true if the page shows a matrix: it has many variants or uncertainties.
 bool is_shown(const MatrixSubject& subject) {
   const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
     return row.checks.begin()->second.comparison != nullptr;

@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kOrderTolerance = 0.1;  ///< relative difference of an order near theory
+constexpr double kOrderTolerance = 0.1;  ///< largest relative difference of an order "near" theory
 
 /// Convergence of all values of one quantity in one refinement study (sweep) of one run.
 using OrderRow = std::vector<const Convergence*>;
@@ -31,7 +31,7 @@ std::vector<OrderRow> rows_of(const Run& run) {
 struct Findings {
   std::size_t rows = 0, entries = 0;
   Interval order, law;               ///< fitted orders; relative misfits of two-term laws
-  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
+  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order; with order near theory
 
   void add(const OrderRow& row) {
     ++rows;

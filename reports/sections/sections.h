@@ -9,8 +9,8 @@
 #include "reports/figures/gallery.h"
 #include "reports/text/html.h"
 
-/// Sections of report pages. Each function converts results into the data of a template. The data
-/// of a section without content have a false `has_rows`.
+/// Sections of report pages. Each function converts results into the data of a template. If a
+/// section has no content, the variable `has_rows` of its data is false.
 namespace trammel::reports {
 
 /// Returns the template data `entries` together with text, CSS class and symbol of a check status
@@ -75,7 +75,7 @@ struct StudyFigures {
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
 /// Returns the groups of families, each with a link to its first family, a small drawing, and its
-/// worst check in words.
+/// largest difference in words.
 [[nodiscard]] Data family_groups(const std::vector<Family>& families);
 
 /// Returns a table ("matrix") of differences for each validation check with many variants or a

@@ -23,8 +23,8 @@ function made(parent, name, attributes = {}, text = "") {
   return parent.appendChild(e);
 }
 
-// Shows the values of all curves at the pointer, or at the place that the arrow keys select. Drawing a frame, or keys,
-// enlarge a part of the drawing.
+// Shows the values of all curves at the pointer, or at the position that the arrow keys select. The user can enlarge a
+// part of the drawing by drawing a frame or by pressing keys.
 function readable(svg) {
   const [x0, x1, y0, y1, left, right, bottom, top, logX, logY] = svg.dataset.axes.split(" ").map(Number);
   const box = svg.parentElement, none = ["#ffffff", "#e4e7eb", "#a6aeb8", "#eef0f3"];
@@ -107,7 +107,8 @@ function outlines(parent, drawn, color) {
   return at => all.forEach(([path, lines]) => path.setAttribute("d",
     lines.map(line => "M" + line.map(i => at[2 * i].toFixed() + "," + at[2 * i + 1].toFixed()).join("L")).join("")));
 }
-// Returns a function that draws a motion at a time, its length, and the factor by which it is slowed down. It repeats.
+// Returns the duration of a repeated motion, the factor by which it is slowed down, and a function that draws its state
+// at a time.
 function running(motion, g) {
   const sums = rows => rows.slice(1).reduce((all, row) => [...all, row.map((step, i) => all.at(-1)[i] + step)], [rows[0]]);
   const text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;
@@ -177,7 +178,7 @@ if (find) {
       const all = tidy([id, name, variant, title, quantity].join(" "));
       return words.every(word => all.includes(word));
     });
-    const share = row => row[6] ?? (statuses[row[5]][1] === "passes" ? -1 : 1e99);  // without a number: by status alone
+    const share = row => row[6] ?? (statuses[row[5]][1] === "passes" ? -1 : 1e99);  // without a fraction, only the status counts
     if (asked.get("order") === "worst") hit.sort((a, b) => statuses[b[5]][3] - statuses[a[5]][3] || share(b) - share(a));
     status.textContent = `${hit.length} of ${rows.length} checks` + (hit.length > most ? `, the first ${most}` : "");
     body.replaceChildren();

@@ -25,7 +25,7 @@ namespace trammel::reports {
 /// Returns the number as `trimmed`, with its sign: +0.31, −4.2 × 10⁻⁹.
 [[nodiscard]] std::string with_sign(double x, int digits);
 
-/// Returns a relative difference as a percentage; below 1e-5, as a plain number.
+/// Returns a relative difference as a percentage; a magnitude below 1e-5 as a plain number.
 [[nodiscard]] std::string percent_text(double x, int digits, bool sign);
 
 /// Returns the number of significant digits, from 4 to 10, that show the difference of two numbers.

@@ -14,12 +14,12 @@ namespace trammel::solver {
 
 namespace {
 
-/// Returns the distance [m] below which two nodes are merged.
+/// Returns the distance [m] below which two mesh nodes are merged into one node.
 double merge_tolerance(const std::vector<Vector2d>& points) {
   return 1e-9 * box_diagonal(points);
 }
 
-/// Finds nodes by their position.
+/// Search structure that finds a mesh node by its position within the merge tolerance.
 class Places {
  public:
   explicit Places(double tolerance) : tolerance_(tolerance) {}
@@ -28,8 +28,9 @@ class Places {
     by_x_.emplace(position.x(), Place{by_x_.size(), node, position});
   }
 
-  /// Returns the index of the first added node whose distance from a position is within the merge
-  /// tolerance, or -1.
+  /// Returns the index of the node whose distance from `position` is below the merge tolerance, or
+  /// -1 if there is no such node. If several nodes match, the node that was added first is
+  /// returned.
   [[nodiscard]] Index find(const Vector2d& position) const {
     const Place* first = nullptr;
     auto at = by_x_.lower_bound(position.x() - tolerance_);
@@ -51,7 +52,7 @@ class Places {
   double tolerance_;
 };
 
-/// Side of a block as a curve over 0 <= s <= 1.
+/// Side of a mesh block as a parametric curve with 0 <= s <= 1: a straight line or an elliptic arc.
 class Side {
  public:
   Side(const Vector2d& from, const Vector2d& to, const std::optional<Ellipse>& ellipse)
@@ -64,7 +65,7 @@ class Side {
   }
 
   [[nodiscard]] Vector2d at(double s) const {
-    if (s == 0) return from_;  // exact corners, so that adjacent blocks share them
+    if (s == 0) return from_;  // exact corner without round-off, as in adjacent blocks
     if (s == 1) return to_;
     if (!ellipse_) return (1 - s) * from_ + s * to_;
     const double t = start_ + s * turn_;
@@ -76,7 +77,7 @@ class Side {
     const Vector2d p = (point - ellipse_->center).cwiseQuotient(ellipse_->semi_axes);
     if (!(std::abs(p.norm() - 1) < 1e-6))
       throw ModelError("a corner of a mesh block at (" + std::to_string(point.x()) + ", " +
-                       std::to_string(point.y()) + ") m does not lie on the ellipse of its side");
+                       std::to_string(point.y()) + ") m does not lie on the ellipse of a side");
     return std::atan2(p.y(), p.x());
   }
 
@@ -86,8 +87,9 @@ class Side {
   double turn_ = 0;
 };
 
-/// Returns the coordinates 0 to 1 of the n + 1 mesh lines between n cells. With mid-side nodes,
-/// there are 2 n + 1 lines, where each additional line is halfway between its neighbors.
+/// Returns the coordinates of the n + 1 grid lines that divide the interval from 0 to 1 into n
+/// cells. `grading` is the length of the last cell divided by that of the first cell. For elements
+/// with mid-side nodes, n further lines are inserted, each halfway between two adjacent lines.
 std::vector<double> lines(Index cells, double grading, bool with_mid_side_nodes) {
   const double q = cells > 1 ? std::pow(grading, 1.0 / static_cast<double>(cells - 1)) : 1;
   std::vector<double> at = {0};
@@ -136,7 +138,7 @@ class Mesher {
     grid_.clear();
     for (std::size_t j = 0; j < t.size(); ++j) {
       for (std::size_t i = 0; i < s.size(); ++i) {
-        // A node on a side may also belong to an adjacent block.
+        // A node on a side of the block may coincide with a node of an adjacent block.
         const bool outer = i == 0 || j == 0 || i + 1 == s.size() || j + 1 == t.size();
         const Vector2d position = point(s[i], t[j]);
         Index node = outer ? outer_.find(position) : -1;
@@ -172,7 +174,7 @@ class Mesher {
         const std::array<Place, 4> q = {Place{i * step, j * step}, Place{(i + 1) * step, j * step},
                                         Place{(i + 1) * step, (j + 1) * step},
                                         Place{i * step, (j + 1) * step}};
-        const std::size_t k = (i + j) % 2;  // selects the diagonal
+        const std::size_t k = (i + j) % 2;  // alternates the diagonal that splits a cell
         triangle(q[k], q[k + 1], q[k + 2]);
         triangle(q[k], q[k + 2], q[(k + 3) % 4]);
       }
@@ -189,8 +191,8 @@ class Mesher {
   }
 
   BlockMesh mesh_;
-  Places outer_;             // nodes on the sides of all blocks added so far
-  std::vector<Index> grid_;  // nodes of the current block, row by row
+  Places outer_;             // nodes on the sides of all blocks that are already meshed
+  std::vector<Index> grid_;  // node indices of the current block, row by row
   std::size_t width_ = 0;
 };
 
@@ -232,8 +234,9 @@ std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
 
 namespace {
 
-/// Returns the displacement of a node along one axis, divided by the amplitude of the distortion:
-/// -1, 0 or 1. The values repeat with period 3 in n.
+/// Returns the displacement of a node of a distorted mesh along one axis, divided by the amplitude
+/// of the distortion: -1, 0 or 1. n is an integer combination of the row and column of the node.
+/// The values repeat with period 3 in n.
 double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }

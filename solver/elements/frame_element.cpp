@@ -5,8 +5,9 @@
 namespace trammel::solver {
 namespace {
 
-/// Returns a section whose properties are mix(a, b, n), where a and b are the properties of two
-/// sections. A property is proportional to depth^n times width.
+/// Returns a section in which each property has the value mix(a, b, n). a and b are the values of
+/// the property in the sections `first` and `second`. The property is proportional to depth^n times
+/// width.
 template <class Mix>
 Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;
@@ -20,8 +21,8 @@ Section mixed(const Section& first, const Section& second, const Mix& mix) {
   return section;
 }
 
-/// Returns a section between two sections whose depth and width are interpolated linearly. The
-/// depth is proportional to the radius of gyration.
+/// Returns the section at the fraction `at` of the distance between two sections, for linear depth
+/// and width. The ratio of the depths equals the ratio of the radii of gyration.
 Section with_linear_dimensions(const Section& first, const Section& second, double at) {
   const double depth_ratio = std::sqrt(second.EI / second.EA / (first.EI / first.EA));
   const double width_ratio = second.area / first.area / depth_ratio;

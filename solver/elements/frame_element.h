@@ -8,11 +8,12 @@
 #include "solver/model/quadrature.h"
 
 /// Two-node planar frame element, as pure functions. The element x axis points from the first node
-/// to the second, and y points to its left. The degrees of freedom are (u1 v1 θ1 u2 v2 θ2) [m, m,
-/// rad].
+/// to the second. The element y axis is the x axis, rotated counterclockwise by 90 degrees. The
+/// degrees of freedom are (u1 v1 θ1 u2 v2 θ2) [m, m, rad].
 ///
 /// All beam theories share one interpolation, which is exact for a prismatic beam loaded at its
-/// ends (Przemieniecki 1968; Friedman & Kosmatka 1993). It depends on the shear ratio
+/// ends (Przemieniecki 1968; Friedman & Kosmatka 1993). The interpolation depends on the shear
+/// ratio
 ///
 ///   \f[ \Phi = 12 EI / (\kappa GA L^2). \f]
 ///
@@ -29,7 +30,7 @@
 /// Energies and forces computed from d keep the significant digits of bending even if the axial
 /// stiffness is much larger. The entries of k in world axes lose these digits.
 ///
-/// Templates over T are defined for double and dual numbers (Dual).
+/// The type T of the function templates is double or Dual (dual number for derivatives).
 namespace trammel::solver {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -40,11 +41,12 @@ template <class T>
 using Matrix36 = Eigen::Matrix<T, 3, 6>;
 using FrameDeformation = Matrix36<double>;
 
-/// Returns the section of a member at the fraction 0 <= at <= 1 of its length, according to its
-/// taper.
+/// Returns the section of a member at the fraction 0 <= at <= 1 of the member length, according to
+/// the taper of the member.
 [[nodiscard]] Section section_at(const Member& member, double at);
 
-/// Returns Phi = 12 EI / (kappa GA L^2) [-], or 0 for a theory without shear deformation.
+/// Returns the shear ratio Phi = 12 EI / (kappa GA L^2) [-], or 0 for a beam theory without shear
+/// deformation.
 template <Real T>
 [[nodiscard]] T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
                             const std::type_identity_t<T>& length) {
@@ -112,10 +114,11 @@ template <Real T>
   return N;
 }
 
-/// Returns the mass matrix of an element in element axes, 6 x 6. The consistent matrix is the
-/// integral of rho A (u^2 + v^2) and, with rotary inertia, of rho I θ^2 over the interpolation. The
-/// lumped matrix assigns half of the mass and of the rotary inertia to each node. Rotations are
-/// therefore massless without rotary inertia.
+/// Returns the mass matrix of an element in element axes, 6 x 6. The consistent matrix follows from
+/// the integral of rho A (u^2 + v^2) over the interpolation. For a beam theory with rotary inertia,
+/// rho I θ^2 is added to the integrand. The lumped matrix assigns half of the mass and of the
+/// rotary inertia to each node. For a theory without rotary inertia, the lumped matrix has no mass
+/// for the rotations.
 /// Source: Varalakshmi & Srinivas (2017), Eq. 6, 7; Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,
@@ -136,15 +139,17 @@ template <Real T>
   return (M + M.transpose().eval()) * T(0.5);
 }
 
-/// Returns the mass matrix of a bar that does not bend (E I = 0), 6 x 6. The axial and the
-/// transverse displacement vary linearly along the bar, and rotations are massless.
+/// Returns the mass matrix of a bar that does not bend (E I = 0), 6 x 6. In the consistent matrix,
+/// the axial and the transverse displacement vary linearly along the bar. The lumped matrix assigns
+/// half of the mass to each node. Rotations are massless.
 [[nodiscard]] Matrix6d bar_mass(const Section& section, MassMatrix mass, double length);
 
 /// Returns the consistent nodal forces [N, N, N m] of a uniform load (qx, qy) [N/m] in element
-/// axes. They are the same for all theories.
+/// axes. The forces are the same for all beam theories.
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
-/// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom.
+/// Returns the transformation matrix T_s, 6 x 6. T_s maps degrees of freedom in world axes to
+/// degrees of freedom in element axes.
 /// Source: Varalakshmi & Srinivas (2017), Eq. 10.
 template <Real T = double>
 [[nodiscard]] Matrix6<T> frame_transformation_matrix(const Eigen::Vector2<T>& direction) {

@@ -22,7 +22,7 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 /// Adds the mid-side nodes of all triangles. Two triangles share the node of a common side.
 void add_middles(TriangleMesh& mesh) {
   mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
-  std::unordered_map<Index, Index> middle;  // key: the two end nodes of the side
+  std::unordered_map<Index, Index> middle;  // mid-side node by the indices of the end nodes
   middle.reserve(2 * mesh.triangles.size());
   for (TriangleMesh::Nodes& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ void add_middles(TriangleMesh& mesh) {
   }
 }
 
-/// Splits every triangle into four at its mid-side nodes.
+/// Splits every triangle into four triangles at its mid-side nodes.
 TriangleMesh split(TriangleMesh mesh) {
   add_middles(mesh);
   TriangleMesh fine{std::move(mesh.nodes), {}};
@@ -72,9 +72,10 @@ const std::array<RulePoint, 7>& radon_rule() {
   return rule;
 }
 
-/// Calls visit(point, area) at the quadrature points of the triangle t near the disc around x0.
-/// `area` is the weight of the point, an area. The triangle is divided into pieces that are small
-/// compared with the disc. Pieces outside the disc are skipped.
+/// Calls visit(point, area) at quadrature points of the triangle t, for an integral over the disc
+/// with center x0. `area` is the quadrature weight of the point [m^2]. The triangle is divided
+/// recursively into pieces that are small compared with the disc. Pieces outside the disc are
+/// skipped.
 template <class Visit>
 void integrate_near(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
   const Vector2d centroid = (t[0] + t[1] + t[2]) / 3;
@@ -97,8 +98,9 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   }
 }
 
-/// Integrals from which the weight of each mesh node i within a pin follows: int N_i phi (1, xi,
-/// eta) dA with (xi, eta) = (x - x0) / radius (platform_mesh.h).
+/// Integrals over the area of a pin, from which the weight of each mesh node i follows: int N_i phi
+/// (1, xi, eta) dA with (xi, eta) = (x - x0) / radius. N_i is the shape function of the node, and
+/// phi is the kernel function defined at `pin_weights`.
 using Shares = std::unordered_map<Index, Vector3d>;
 
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
@@ -107,7 +109,8 @@ void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, cons
   for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.nodes[static_cast<std::size_t>(nodes[k])];
   const double whole = twice_area(t[0], t[1], t[2]);
   const bool six_nodes = nodes[3] >= 0;
-  Eigen::Matrix<double, 6, 3> moments = Eigen::Matrix<double, 6, 3>::Zero();  // node x (1, xi, eta)
+  // Integrals of N_i phi times 1, xi and eta (columns) for each node i of the triangle (rows).
+  Eigen::Matrix<double, 6, 3> moments = Eigen::Matrix<double, 6, 3>::Zero();
   integrate_near(t, x0, radius, [&](const Vector2d& x, double area) {
     const Vector2d xi = (x - x0) / radius;
     const double gap = 1 - xi.squaredNorm();
@@ -158,8 +161,8 @@ std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, cons
   for (const auto& share : shares) weights.emplace_back(share.first, 0.0);
   std::sort(weights.begin(), weights.end());
 
-  // The coefficients (a, b) of the weights follow from sum_i w_i (1, (x_i - x0) / radius) = (1, 0,
-  // 0).
+  // The coefficients (a, b) in the formula of the weights w_i (see `pin_weights`) follow from the
+  // conditions sum_i w_i (1, (x_i - x0) / radius) = (1, 0, 0).
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   const auto local = [&](Index node) {
     const Vector2d xi = (mesh.nodes[static_cast<std::size_t>(node)] - x0) / radius;

@@ -41,7 +41,7 @@ TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes, 
   result.nodes = std::ssize(nodes);
   result.N = triangle_shape_functions(L, nodes.size() == 6);
   const Eigen::Matrix<double, 2, 6> local = local_gradient(nodes.size() == 6, L);
-  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1); one row for each L
+  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // Jacobian matrix, row i: d(x, y) / dL_i
   for (Index i = 0; i < result.nodes; ++i) {
     const Vector2d& p = nodes[to_size(i)];
     result.position += result.N[i] * p;
@@ -131,7 +131,8 @@ TriangleMatrix<6> triangle_mass(const TriangleNodes<6>& nodes, const Plate& plat
 
 namespace {
 
-/// Shape functions of the two end nodes and the middle node of a side, and their derivatives.
+/// Shape functions N of the two end nodes and the middle node of a triangle side, and the
+/// derivatives dN/ds with respect to the side coordinate 0 <= s <= 1.
 struct SideShape {
   std::array<double, 3> N, dN;
 };

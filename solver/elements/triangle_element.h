@@ -10,36 +10,39 @@
 #include "solver/model/quadrature.h"
 
 /// Triangles in plane stress, as pure functions: the constant-strain triangle with three nodes and
-/// the isoparametric triangle with six nodes. The mid-side nodes 01, 12, 20 of the latter may lie
-/// off the straight line. Coordinates are (u1 v1 u2 v2 ...) in world axes [m].
+/// the isoparametric triangle with six nodes. The mid-side nodes 01, 12, 20 of a six-node triangle
+/// may lie off the straight side. The degrees of freedom are the nodal displacements (u1 v1 u2 v2
+/// ...) in world axes [m].
 ///
-/// The stiffness is diagonal in suitable measures of deformation, as for the frame element:
+/// As for the frame element, the stiffness is diagonal in suitable measures of deformation d. For a
+/// plate of thickness t, triangle area A, Young's modulus E, shear modulus G and Poisson's ratio
+/// nu:
 ///
 ///   d = B u = (exx + eyy, exx - eyy, gxy),
 ///   k = B^T diag(t A E / (2 (1 - nu)), t A G, t A G) B.
 ///
-/// This equals k = t integral B^T D B dA with the elasticity matrix D, Varalakshmi & Srinivas
-/// (2017), Eq. 8. The six-node triangle sums over the points of an integration rule that is exact
-/// to degree 4. Its strains are linear, so that degree 2 suffices for straight sides. Curved sides
-/// require the higher degree.
+/// This matrix k equals t integral B^T D B dA with the elasticity matrix D, Varalakshmi & Srinivas
+/// (2017), Eq. 8. For the six-node triangle, k is a sum over the points of an integration rule that
+/// is exact to degree 4. Degree 2 would suffice for straight sides, because the strains are then
+/// linear. Curved sides require the higher degree.
 namespace trammel::solver {
 
 template <std::size_t n>
-using TriangleNodes = std::array<Vector2d, n>;  ///< n = 3 or 6 [m]
+using TriangleNodes = std::array<Vector2d, n>;  ///< positions of n = 3 or n = 6 nodes [m]
 using TrianglePoints = TriangleNodes<3>;
 template <std::size_t n>
 using TriangleMatrix = Eigen::Matrix<double, static_cast<int>(2 * n), static_cast<int>(2 * n)>;
 
-/// Shape functions of a triangle at one point. With three nodes they are the area coordinates L_i.
-/// With six nodes they are L_i (2 L_i - 1) at the corners and 4 L_i L_j at the mid-side nodes.
-/// Entries beyond the number of nodes are 0.
+/// Shape functions of a triangle at one point. For three nodes, the shape functions are the area
+/// coordinates L_i. For six nodes, they are L_i (2 L_i - 1) at the corners and 4 L_i L_j at the
+/// mid-side nodes. For three nodes, the last three values and gradients are 0.
 /// Source: Zienkiewicz & Taylor, The Finite Element Method, vol. 1.
 struct TriangleInterpolation {
-  Index nodes = 3;                       ///< 3 or 6
-  Eigen::Matrix<double, 6, 1> N;         ///< values [-]
-  Eigen::Matrix<double, 2, 6> gradient;  ///< dN/dx, dN/dy [1/m]
-  Vector2d position = Vector2d::Zero();  ///< world axes [m]
-  /// Half the Jacobian determinant [m^2]; positive if the corners run counterclockwise.
+  Index nodes = 3;                       ///< number of nodes, 3 or 6
+  Eigen::Matrix<double, 6, 1> N;         ///< values of the shape functions [-]
+  Eigen::Matrix<double, 2, 6> gradient;  ///< derivatives dN/dx, dN/dy [1/m]
+  Vector2d position = Vector2d::Zero();  ///< position of the point in world axes [m]
+  /// Half of the Jacobian determinant [m^2]. It is positive if the corners run counterclockwise.
   double signed_area = 0;
   double area = 0;  ///< absolute value of `signed_area` [m^2]
 };
@@ -50,12 +53,13 @@ struct TriangleInterpolation {
           Vector3d(0.5, 0.5, 0), Vector3d(0, 0.5, 0.5), Vector3d(0.5, 0, 0.5)};
 }
 
-/// Returns the values of the shape functions [-] at the area coordinates L. Entries beyond the
-/// number of nodes are 0.
+/// Returns the values of the shape functions of a triangle [-] at the area coordinates L. For a
+/// three-node triangle, the last three values are 0.
 [[nodiscard]] Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L,
                                                                    bool six_nodes);
 
-/// Evaluates the shape functions of a triangle with 3 or 6 nodes [m] at the area coordinates `L`.
+/// Evaluates the shape functions of a triangle at the area coordinates `L`. `nodes` contains the
+/// positions of the 3 or 6 nodes [m].
 [[nodiscard]] TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
                                                              const Vector3d& L);
 /// Evaluates the shape functions of a triangle of a model at the area coordinates `L`.
@@ -71,7 +75,7 @@ template <std::size_t n>
   return points;
 }
 
-/// Calls visit(positions) with the positions of all nodes of the triangle, three or six.
+/// Calls visit(positions) with the positions of the three or six nodes of a triangle [m].
 template <class Visit>
 decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&& visit) {
   return triangle.quadratic() ? visit(triangle_nodes<6>(model, triangle))
@@ -106,15 +110,14 @@ template <int nodes>
 /// Source: Varalakshmi & Srinivas (2017), Eq. 8.
 [[nodiscard]] Vector3d membrane_stress(const Material& material, const Vector3d& deformation);
 
-/// Stiffness of a triangle in factored form, k = B^T diag(c) B, with three rows per integration
-/// point.
+/// Stiffness matrix of a triangle in factored form, k = B^T diag(c) B.
 template <std::size_t n>
 struct TriangleStiffness {
   static constexpr int kRows = n == 3 ? 3 : 18;
   /// Matrix from nodal displacements to deformations (exx + eyy, exx - eyy, gxy) [1/m]. It has
   /// three rows for each integration point.
   Eigen::Matrix<double, kRows, static_cast<int>(2 * n)> B;
-  Eigen::Matrix<double, kRows, 1> c;  ///< [N m]
+  Eigen::Matrix<double, kRows, 1> c;  ///< rigidity of each deformation [N m]
 };
 
 /// Computes the factors B and c of the stiffness matrix of a triangle.
@@ -127,21 +130,22 @@ template <std::size_t n>
 ///
 ///   \f[ m = \rho t \int N^T N \, dA. \f]
 ///
-/// It is also exact for curved sides (integrand of degree 6).
+/// The integration is exact also for curved sides, for which the integrand has degree 6.
 /// Source: Varalakshmi & Srinivas (2017), Eq. 9.
 template <std::size_t n>
 [[nodiscard]] TriangleMatrix<n> triangle_mass(const TriangleNodes<n>& nodes, const Plate& plate);
 
-/// Function that returns the force per area [Pa] times |dx/ds| [m] at a position [m] on a side with
-/// tangent dx/ds [m].
+/// Function that returns the force per area [Pa] times |dx/ds| [m] at a position x [m] on a
+/// triangle side. `tangent` is dx/ds [m] with the side coordinate s.
 using SideLoad = std::function<Vector2d(const Vector2d& position, const Vector2d& tangent)>;
 
-/// Returns the consistent nodal forces [N] of a loaded side of a plate:
+/// Returns the consistent nodal forces [N] of a loaded side of a plate with thickness t and shape
+/// functions N:
 ///
 ///   t integral N^T load ds over 0 <= s <= 1.
 ///
-/// The third force is zero if the side has no middle node (nodes[2] = -1). The side may be curved:
-/// it is the parabola through its nodes.
+/// The third force is zero if the side has no middle node (nodes[2] = -1). A side with a middle
+/// node is the parabola through its three nodes.
 [[nodiscard]] std::array<Vector2d, 3> side_forces(const Model& model, Index plate,
                                                   const std::array<Index, 3>& nodes,
                                                   const SideLoad& load);

@@ -12,7 +12,7 @@ Eigen::VectorXd input_scales(const Eigen::MatrixXd& inputs, InputScaling scaling
   for (Index f = 0; f < inputs.cols(); ++f) {
     const Eigen::VectorXd column = inputs.col(f);
     const double range = column.maxCoeff() - column.minCoeff();
-    if (range == 0) continue;  // constant input; its deviation could be a round-off error
+    if (range == 0) continue;  // constant input, whose deviation is only round-off
     const double deviation = std::sqrt((column.array() - column.mean()).square().mean());
     scale(f) = scaling == InputScaling::range ? range : deviation;
   }
@@ -53,17 +53,17 @@ double sigma_of_newgrnn_spread(double spread) {
 }
 
 Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
-  require(queries.cols() == network.inputs.cols(), "a query has the wrong number of inputs");
+  require(queries.cols() == network.inputs.cols(), "a GRNN query requires one value per input");
   require(network.sigma >= std::numeric_limits<double>::min() && std::isfinite(network.sigma),
           "the sigma of a GRNN must be a positive normal number");
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const Eigen::MatrixXd scaled =
-      network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // input x query
+      network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // one column per query
   require(squarable(scaled), "a scaled input of a query is not finite or too large to be squared");
 
-  // Process queries in blocks. One matrix product combines the kernel weights of a block with the
-  // outputs and with a column of ones for the sums of the weights. It covers only samples whose
-  // weights are not negligible for at least one query of the block.
+  // Process queries in blocks. For each block, one matrix product multiplies the kernel weights by
+  // the outputs of the samples and by a column of ones, which yields the sums of the weights. The
+  // product omits samples before the first and after the last sample with a relevant weight.
   constexpr Index kBlock = 32;
   const Index columns = network.outputs.cols();
   Eigen::MatrixXd targets(samples.rows(), columns + 1);
@@ -94,7 +94,7 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
 
 namespace {
 
-// Least exponent of the exponential function whose result is a normal floating-point number.
+// Least integer x for which exp(x) is a normal floating-point number.
 constexpr double kLeastExponent = -708;
 
 }  // namespace
@@ -103,7 +103,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(
     const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
     const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Relative margin that exceeds the round-off error of a sum of squares of a thousand inputs.
+  // Relative margin larger than the round-off error of a sum of squares of a thousand inputs.
   constexpr double kRounding = 1e-12;
   const Index count = samples_.rows();
   excess_ = (query(0) - samples_.col(0).array()).square();
@@ -117,8 +117,8 @@ const Eigen::ArrayXd& ExcessDistances::compute(
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
-  // Samples outside [first_, last_) keep the squared distance D_i^2. It is at least their excess
-  // D_i^2 - D_m^2, where m is the nearest sample.
+  // For samples i outside the index range [first_, last_), `excess_` remains the squared distance
+  // D_i^2. This value is at least the exact excess D_i^2 - D_m^2, where m is the nearest sample.
   auto near = excess_.segment(first_, last_ - first_);
   near.setZero();
   for (Index f = 0; f < samples_.cols(); ++f) {
@@ -127,15 +127,15 @@ const Eigen::ArrayXd& ExcessDistances::compute(
     near += (m - s) * ((x - s) + (x - m));
   }
   if (excluded) near = excluded->segment(first_, near.size()).select(kInfinity, near);
-  // Round-off may have selected the second nearest sample as the nearest one. Subtract the minimum,
-  // so that no difference of squared distances is negative.
+  // Because of round-off, `nearest` may be the second nearest sample. Subtract the minimum, so that
+  // no difference of squared distances is negative.
   near -= near.minCoeff();
   return excess_;
 }
 
 void kernel_weights(const double* excess, Index count, double sigma, double* weights) {
-  // Divide twice, because sigma^2 may underflow or overflow although excess / sigma / sigma has a
-  // proper limit.
+  // Divide the excess by sigma twice, because sigma^2 may underflow or overflow although excess /
+  // sigma / sigma is representable.
   const double inverse = 1 / sigma;
   const Eigen::Map<const Eigen::ArrayXd> e(excess, count);
   Eigen::Map<Eigen::ArrayXd>(weights, count) =

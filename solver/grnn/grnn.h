@@ -11,8 +11,8 @@ namespace trammel::solver {
 /// input is divided by 1.
 enum class InputScaling {
   none,
-  deviation,  ///< standard deviation over the samples
-  range       ///< largest minus smallest value
+  deviation,  ///< standard deviation of the input over the samples
+  range       ///< largest minus smallest value of the input
 };
 
 /// General regression neural network. The output Y at an input x is a weighted mean of the outputs
@@ -24,15 +24,15 @@ enum class InputScaling {
 ///
 /// with the scale s_f of input f. Source: Varalakshmi & Srinivas (2017), Eq. 36, 37.
 struct Grnn {
-  Eigen::MatrixXd inputs;   ///< sample x input
-  Eigen::MatrixXd outputs;  ///< sample x output
+  Eigen::MatrixXd inputs;   ///< inputs: one row per sample, one column per input
+  Eigen::MatrixXd outputs;  ///< outputs: one row per sample, one column per output
   Eigen::VectorXd scale;    ///< divisor of each input, > 0, in the unit of the input
-  double sigma = 1;         ///< smoothing, in scaled distance [-]
+  double sigma = 1;         ///< smoothing parameter, a distance between scaled inputs [-]
 };
 
 /// Builds a network from samples. The scale of the inputs is computed by the rule `scaling`.
-/// @throws ModelError  if there is no sample, the numbers of samples differ, or a number is not
-///   finite or too large to be squared.
+/// @throws ModelError  if there is no sample, inputs and outputs have different numbers of samples,
+///   a value is not finite, or an input is too large to be squared.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double sigma, InputScaling scaling = InputScaling::none);
 
@@ -47,25 +47,27 @@ struct Grnn {
 [[nodiscard]] double sigma_of_newgrnn_spread(double spread);
 
 /// Returns the outputs of a network for queries (new inputs). The result is never 0/0, because
-/// weights are relative to the weight of the nearest sample m. They follow from the differences
+/// weights are relative to the weight of the nearest sample m. The weights follow from the
+/// differences
 ///
 ///   D_i^2 - D_m^2 = sum_f (X_mf - X_if) ((x_f - X_if) + (x_f - X_mf)) / scale_f^2,
 ///
 /// which remain accurate far from the samples. The limit for sigma -> 0 is the output of the
 /// nearest sample, or the mean output of several nearest samples. The limit for sigma -> infinity
 /// is the mean output of all samples.
-/// @param network  samples, scale and sigma.
-/// @param queries  query x input.
-/// @return         query x output.
+/// @param network  samples, scale of each input, and smoothing parameter sigma.
+/// @param queries  inputs of the queries: one row per query, one column per input.
+/// @return         predicted outputs: one row per query, one column per output.
 /// @throws ModelError  if a query is not finite or has the wrong number of inputs, or sigma is not
 ///   a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-// Kernel weights of a GRNN, shared by prediction and cross-validation.
+// Functions for the kernel weights of a GRNN, used by prediction and cross-validation.
 
-/// Returns the scale of each column (input) of the samples; 1 for a constant column.
+/// Returns the scale of each input (column of the samples) by the rule `scaling`. The scale of a
+/// constant input is 1.
 [[nodiscard]] Eigen::VectorXd input_scales(const Eigen::MatrixXd& columns, InputScaling scaling);
-/// Returns the inputs divided by their scales, sample x input [-].
+/// Returns the inputs of all samples divided by the scales of the inputs [-]: one row per sample.
 [[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
 }
@@ -74,21 +76,22 @@ struct Grnn {
 /// query, where m is the sample nearest to the query.
 class ExcessDistances {
  public:
-  /// @param samples  sample x input, scaled; must outlive this object.
+  /// @param samples  scaled inputs, one row per sample; the matrix must outlive this object.
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
       : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
   /// Computes the excess D_i^2 - D_m^2 of every sample i for a query. D is the distance from the
   /// query, and m the nearest sample.
-  /// @param query  scaled input.
+  /// @param query  scaled inputs of the query.
   /// @param excess_limit  limit above which the excess need not be exact: samples with a larger
-  ///   excess may get any value of at least `excess_limit`.
-  /// @param excluded  true for samples to leave out (their excess is infinite), or null.
+  ///   excess may have any value of at least `excess_limit`.
+  /// @param excluded  true for each sample to leave out, whose excess becomes infinite; null: none.
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double excess_limit,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* excluded = nullptr);
 
-  /// Ends of the index range [first, end) of samples near the query of the last call of `compute`.
-  /// It contains all samples whose excess is below the argument `reach` of this call.
+  /// First index and end index of the range [first, end) of samples near the query of the last call
+  /// of `compute`. The range contains all samples whose excess is below `excess_limit` of this
+  /// call.
   [[nodiscard]] Index first_sample_in_reach() const { return first_; }
   [[nodiscard]] Index end_sample_in_reach() const { return last_; }
 
@@ -98,14 +101,14 @@ class ExcessDistances {
   Index first_ = 0, last_;
 };
 
-/// Computes the weights exp(-excess / 2 sigma^2) of `count` samples. The excess is the squared
-/// distance of a sample from the query, minus that of the nearest sample. The weight of the nearest
+/// Computes the weights exp(-excess / 2 sigma^2) of `count` samples. The excess of a sample is its
+/// squared distance from the query, minus that of the nearest sample. The weight of the nearest
 /// sample is 1 for any sigma. All weights are at least e^-708, which is a normal number and
 /// negligible compared with 1.
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
-/// Returns the difference of squared distances (`ExcessDistances`) above which the weight of a
-/// sample is negligible. It is infinite if sigma^2 overflows.
+/// Returns the excess (see `ExcessDistances`) above which the kernel weight of a sample is
+/// negligible. The result is infinite if sigma^2 overflows.
 [[nodiscard]] double kernel_cutoff_excess(double sigma);
 
 }  // namespace trammel::solver

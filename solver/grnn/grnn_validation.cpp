@@ -15,13 +15,13 @@ namespace trammel::solver {
 namespace {
 
 void check_sigmas(const Eigen::VectorXd& sigmas) {
-  require(sigmas.size() >= 1, "at least one sigma is required");
+  require(sigmas.size() >= 1, "cross-validation requires at least one sigma");
   require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
-          "every sigma must be a positive normal number");
+          "every sigma of a GRNN must be a positive normal number");
 }
 
 /// Returns the sample indices 0, 1, ..., optionally in the random order of the Fisher-Yates
-/// algorithm. The result of std::shuffle would differ between standard libraries.
+/// algorithm. std::shuffle is not used, because its result differs between standard libraries.
 std::vector<Index> sample_order(Index samples, bool shuffled, std::uint64_t seed) {
   std::vector<Index> order(to_size(samples));
   std::iota(order.begin(), order.end(), Index{0});
@@ -67,8 +67,8 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   const Eigen::RowVectorXd importance =
       input_scales(network.outputs, InputScaling::deviation).cwiseInverse();
 
-  // Process samples in blocks. One matrix product combines their weights with the outputs and with
-  // a column of ones for the sums of the weights.
+  // Process samples in blocks. For each block, one matrix product multiplies the kernel weights by
+  // the outputs and by a column of ones, which yields the sums of the weights.
   constexpr Index kBlock = 32;
   const Index columns = network.outputs.cols();
   Eigen::MatrixXd targets(n, columns + 1);
@@ -148,8 +148,8 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  // Search sigma relative to the middle of the bracket, so that the unit of the inputs does not
-  // matter. 12 bits determine sigma to better than 1e-3.
+  // Search the logarithm of sigma relative to the middle of the bracket, so that the unit of the
+  // inputs does not matter. 12 bits determine sigma with a relative error below 1e-3.
   constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;
   boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1) / middle),

@@ -16,8 +16,8 @@ Monomials monomials(double x) {
   return {1, x, x * x, x * x * x};
 }
 
-/// Computes the shape functions for x in [0, 1]. The Lobatto points and Gauss rules are listed for
-/// the interval [-1, 1], which is twice as long.
+/// Computes the shape functions and their integrals for x in [0, 1]. The Lobatto points and Gauss
+/// rules in this function are those of the interval [-1, 1].
 BeamInterpolation make_interpolation() {
   const std::array<double, kNodes> lobatto = {-1, -std::sqrt(0.2), std::sqrt(0.2), 1};
   const std::array<double, kPoints> point = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
@@ -33,7 +33,7 @@ BeamInterpolation make_interpolation() {
     s.node[static_cast<std::size_t>(a)] = (1 + x) / 2;
     at_nodes.row(a) = monomials(x);
   }
-  const Eigen::Matrix4d lagrange = at_nodes.inverse();  // coefficients of each polynomial
+  const Eigen::Matrix4d lagrange = at_nodes.inverse();  // coefficients of each Lagrange polynomial
   for (int g = 0; g < kPoints; ++g) {
     const double x = point[static_cast<std::size_t>(g)];
     s.value.row(g) = monomials(x) * lagrange;
@@ -74,8 +74,8 @@ struct Strain {
   }
 
   /// Sets the derivatives of stretch and shear at Gauss point g with respect to the coordinates of
-  /// node a. `slope` is a factor of the derivatives with respect to the displacements, and `value`
-  /// a factor of those with respect to the rotation.
+  /// node a. `slope` multiplies the derivatives with respect to the displacements, and `value`
+  /// multiplies the derivatives with respect to the rotation.
   void set_rows(int g, int a, double slope, double value, Beam::Gradient& G) const {
     G.block<1, 2>(2 * g, 3 * a) = slope * e1.transpose();
     G(2 * g, 3 * a + 2) = value * shear;
@@ -137,9 +137,10 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
   return D;
 }
 
-/// Uses rotations relative to the first node, so that a rigid rotation cancels before it is
-/// multiplied by the stiffness. Otherwise, its round-off error would act as a moment at every node.
-/// In a member of length L with n elements, the sum of these moments would be n^2 eps EI/L.
+/// Computes the moments from rotations relative to the first node, so that a rigid rotation cancels
+/// before the multiplication by the stiffness. Otherwise, the round-off error of the rotation would
+/// act as a moment at every node. In a member of length L with n elements, the sum of these moments
+/// would be n^2 eps EI/L.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
   NodeValues relative = q(kTurns).array() - q[2];
   if (tau != 0) relative.array() += tau * (v(kTurns).array() - v[2]);

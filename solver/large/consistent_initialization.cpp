@@ -37,9 +37,9 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// Computes the velocities v that satisfy the rates of the constraints as well as possible.
-  /// Returns the remaining residuals G v + dg/dt, which are not zero if drives contradict the
-  /// constraints.
+  /// Computes the velocities v that satisfy the time derivatives of the constraints g as well as
+  /// possible. Returns the remaining residuals G v + dg/dt, which are not zero if drives contradict
+  /// the constraints.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -71,7 +71,7 @@ class ConsistentInitialization {
   }
 
   /// Solves S x + G^T y = force, G x - C y = -row with the factored matrix. `solution_` becomes (x,
-  /// y). The right-hand side of elastic rows is 0 instead of -row.
+  /// y). In elastic rows, the right-hand side is 0 instead of -row.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -105,8 +105,8 @@ class ConsistentInitialization {
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
     // Penalties enforce the prescribed velocities. For coordinates divided by their units, each
-    // penalty is 1e6 times the larger of two values. These are the sum of all inertia terms, and
-    // the largest row sum of the magnitudes in the assembled matrix.
+    // penalty is 1e6 times the larger of two values. The two values are the sum of all inertia
+    // terms, and the largest row sum of the magnitudes in the assembled matrix.
     const VectorXd& scale = system_.scale();
     VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
     units.head(n_) = scale;
@@ -129,7 +129,8 @@ class ConsistentInitialization {
       state_.v = solution_.head(n_);
       if (change <= 1e-15 * weighted_rms_norm(system_, state_.v)) break;
     }
-    // Project twice onto G v + dg/dt = 0, which removes the error of the regularized constraints.
+    // Project the velocities v twice onto G v + dg/dt = 0. The projection removes the error that
+    // the regularization of the constraints causes.
     for (int i = 0; i < 2; ++i) {
       system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
       if (!solve(VectorXd::Zero(n_), constraint_rate_)) return false;
@@ -161,10 +162,10 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // The fraction 1e-4 makes the stiffness in S negligible, so that the solution is nearly the
-    // exact acceleration. The acceleration `resolved` of an implicit step replaces it if the exact
-    // acceleration is more than four times as large. In this case, the step does not resolve a
-    // vibration, or a coordinate is massless.
+    // With the fraction 1e-4, the stiffness term in S = M + (fraction * step)^2 K is negligible,
+    // and the solution is nearly the exact acceleration. If the exact acceleration is more than
+    // four times `resolved`, the acceleration `resolved` of an implicit step is used instead. In
+    // this case, the step does not resolve a vibration, or a coordinate is massless.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -177,7 +178,7 @@ class ConsistentInitialization {
   }
 
   /// Refines the accelerations while the residual of the equation of motion decreases. The residual
-  /// results from the small stiffness in the matrix S.
+  /// results from the small stiffness term in the matrix S (see `assemble`).
   void refine_accelerations() {
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 3; ++pass) {
@@ -197,7 +198,7 @@ class ConsistentInitialization {
   }
 
   /// Returns d(G v + dg/dt)/dt for zero acceleration, by a central difference along the motion. Ten
-  /// digits are sufficient, because the acceleration is only the start value of the integrator.
+  /// digits are sufficient, because the acceleration is only a start value of the time integration.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;
@@ -218,7 +219,7 @@ class ConsistentInitialization {
   double step_;
   Index n_, m_;
   bool resolved_ = true;  ///< true: the step resolves all vibrations
-  VectorXd rigid_;        ///< 1 for each rigid row, 0 for each compliant row
+  VectorXd rigid_;        ///< 1 for each rigid constraint row, 0 for each compliant row
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;
 };
@@ -232,13 +233,13 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
 
 std::string drive_conflicts_text(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  // Smallest velocity error of a drive that counts as a contradiction. It is relative to the
-  // largest velocity, or the largest velocity error, of the model. Round-off errors are much
+  // Smallest velocity error of a drive that counts as a contradiction to the constraints. The error
+  // is relative to the largest velocity or velocity error of the model. Round-off errors are much
   // smaller.
   constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";
-  for (const double aside : {0.5, -0.5}) {  // a drive may start or stop at the time of the state
+  for (const double aside : {0.5, -0.5}) {  // a drive may start or stop at the time `state.t`
     State at = state;
     at.t += aside * step;
     at.load = system.load_factor(at.t);
@@ -264,9 +265,9 @@ Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& st
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  // Velocity of each coordinate, or NaN. If several members or nodes share a coordinate, the value
-  // that is set last is used. A map would be too slow, because damping requires these velocities in
-  // every iteration.
+  // Velocity of each coordinate, or NaN if no member or node determines the velocity. If several
+  // members or nodes share a coordinate, the value that is set last is used. A map would be too
+  // slow, because damping requires these velocities in every iteration.
   VectorXd values = VectorXd::Constant(system.coordinate_count(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;

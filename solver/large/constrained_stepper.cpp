@@ -34,8 +34,8 @@ double MotionResiduals::motion_residual(const State& state, const VectorXd& resi
   terms_.setZero();
   unknowns_.head(n) = state.a;
   unknowns_.tail(state.lambda.size()).setZero();
-  // Use a negligible stiffness instead of zero, because rows of massless coordinates would be
-  // divided by zero.
+  // Use a negligible stiffness instead of zero. Otherwise, residuals of massless coordinates would
+  // be divided by zero.
   add_term_magnitudes({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
   add_term_magnitudes({}, state);
@@ -60,7 +60,7 @@ ConstraintGaps MotionResiduals::largest_gaps(const State& state) {
 }
 
 AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
-  constexpr Index kLargest = 64;  // largest number of coordinates of a dense determinant
+  constexpr Index kLargest = 64;  // largest size of a determinant that is computed
   const Index n = system.coordinate_count();
   const Index rigid = (system.row_compliance().array() == 0).count();
   freedom_ = n - rigid;
@@ -92,8 +92,8 @@ double AssemblyBranch::branch_sign(const State& state) {
   if (freedom_ == 1) {
     const VectorXd rate = state.v.cwiseQuotient(system_.scale());
     const double speed = rate.norm();
-    // If a drive moves the mechanism, v is not a null vector of G. The sign of det (G, v) then does
-    // not identify the assembly branch.
+    // If a drive moves the mechanism, the velocity v is not a null vector of the constraint
+    // gradient G. The sign of det (G, v) then does not identify the assembly branch.
     if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
     G.bottomRows<1>() = rate.normalized().transpose();
   }
@@ -102,8 +102,8 @@ double AssemblyBranch::branch_sign(const State& state) {
          static_cast<double>(lu.permutationP().determinant());
 }
 
-/// Convergence of the Newton iteration in a time step. It depends on the corrections of the motion
-/// and on the projections of the positions onto the constraints.
+/// Convergence test of the Newton iteration in a time step. The test uses the corrections of the
+/// motion and the projections of the positions onto the constraints.
 class StepConvergence {
  public:
   void record(double step_correction, double projection) {
@@ -113,18 +113,19 @@ class StepConvergence {
     projection_ = projection;
     ++count_;
   }
-  /// Returns true if the next corrections would be below the limits according to the rate of
-  /// convergence. The result is also true if the corrections stagnate at the level of round-off
+  /// Returns true if, according to the rate of convergence, the next corrections would be below
+  /// their limits. The result is also true if the corrections stagnate at the level of round-off
   /// errors. All arguments are norms relative to the scale of the coordinates.
-  /// @param acceleration  h^2 beta a, the contribution of the accelerations to the step.
-  /// @param velocity  h v, the contribution of the velocities to the step.
-  /// @param position  coordinates q.
-  /// @param limit  limit of the next correction of the motion.
+  /// @param acceleration  norm of h^2 beta a, the contribution of the accelerations to the step.
+  /// @param velocity  norm of h v, the contribution of the velocities to the step.
+  /// @param position  norm of the coordinates q.
+  /// @param limit  limit of the norm of the next correction of the motion.
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
-    // Norm of the corrections at which they stagnate because of round-off. It includes a multiple
-    // of the round-off error of the positions, which corrections amplify near a singular position.
+    // Norm at which the corrections stagnate because of round-off. The norm includes a multiple of
+    // the round-off error of the positions, because corrections amplify this error near a singular
+    // position.
     const double least = 1e-11 * (velocity + acceleration) + 1e-13 * position;
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
                             (stalled() && step_correction_ <= least);
@@ -142,8 +143,8 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  /// Predicts the next correction from the ratio of the last two. Returns the last correction if it
-  /// is the first one or did not decrease.
+  /// Predicts the norm of the next correction from the ratio of the last two corrections. If there
+  /// is only one correction, or the corrections do not decrease, the last correction is returned.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
   }
@@ -206,8 +207,8 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
     const auto norm = [this](const VectorXd& x) { return scaled_norm(x); };
     relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_);
     // If a system remains at rest under changing forces, its motion consists of the round-off
-    // errors of these forces. Compute the residual of the relations of the time scheme again,
-    // relative to terms that include these errors.
+    // errors of these forces. Compute the residual of the update formulas of the time scheme again,
+    // relative to terms that include these round-off errors.
     if (relation_residual_ > 1e-6)
       relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_,
                                              acceleration_slope(h) * correction_roundoff(h));
@@ -215,14 +216,15 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
     if (options_.adaptive)
       report.error =
           scheme_.error_constant * h * h * scaled_norm(work_) / options_.adaptive->relative;
-    // A motion straight through a singular position changes the orientation for steps of any size.
-    // A change is therefore accepted in steps of at most this fraction of the nominal step.
+    // A motion through a singular position changes the assembly branch (see `AssemblyBranch`) for
+    // steps of any size. A change of the branch is therefore accepted in steps of at most this
+    // fraction of the nominal step.
     constexpr double kShortest = 1e-3;
     report.leaves_branch = h > kShortest * options_.step && branch_.changes(from_, to_);
     end_step(h);
   }
-  // Restore A0, because it would be scaled twice if the step is rejected and repeated. A0 is not
-  // needed after an accepted step.
+  // Restore the algorithmic accelerations A0. Otherwise, A0 would be scaled twice if the step is
+  // rejected and repeated. After an accepted step, A0 is not needed.
   A0_ = saved_A0_;
   return report;
 }
@@ -255,8 +257,8 @@ std::string ConstrainedStepper::describe(const StepReport& report) const {
   return text.str();
 }
 
-/// Solves a step by Newton's method with the factored tangent of an earlier step. If this does not
-/// converge, the iteration is repeated with exact tangents.
+/// Solves a step by Newton's method with the factored tangent of an earlier step. If the iteration
+/// does not converge, the iteration is repeated with exact tangents.
 StepReport ConstrainedStepper::iterate(const Step& step) {
   StepReport report = newton(step, false);
   if (report.status == Status::solved) return report;
@@ -268,8 +270,9 @@ StepReport ConstrainedStepper::iterate(const Step& step) {
 }
 
 StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
-  // The energy-momentum method may use more iterations than the generalized-alpha method. It
-  // conserves energy only if the iteration converges fully, which may be slow.
+  // The energy-momentum method may use more iterations than the generalized-alpha method. The
+  // energy-momentum method conserves energy only if the iteration converges fully, which may be
+  // slow.
   const int max_iterations = scheme_.keeps_rates ? 20 : 30;
   const Index n = system_.coordinate_count();
   const double h = step.size;
@@ -298,7 +301,8 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
     report.residual = convergence.last();
     if (has_converged(h, convergence)) {
       report.status = Status::solved;
-      // Many iterations indicate an outdated factorization. The next step computes a new one.
+      // Many iterations indicate an outdated factorization. The next step computes a new
+      // factorization.
       if (i > 3) factored_step_ = 0;
       return report;
     }
@@ -327,8 +331,8 @@ double ConstrainedStepper::elastic_residual(Index r, double h) const {
 /// Computes one Newton correction of a step. Positions are corrected first, with the residuals of
 /// the constraints. Then the accelerations are corrected, with the rates of the constraints at the
 /// new positions. Both corrections use the same matrix. The second correction uses the result of
-/// the first, so that the corrections decrease quadratically, even near a singular position. The
-/// difference between the corrections is the position correction p (constrained_stepper.h).
+/// the first correction, so that both decrease quadratically, even near a singular position. The
+/// difference between the two corrections is the position correction p (see `ConstrainedStepper`).
 void ConstrainedStepper::correct(double h) {
   const Index n = system_.coordinate_count(), m = system_.constraint_count();
   compute_residual(velocity_correction_.head(n));
@@ -356,8 +360,9 @@ void ConstrainedStepper::correct(double h) {
 }
 
 bool ConstrainedStepper::has_converged(double h, const StepConvergence& convergence) const {
-  // Largest final correction of a stalled iteration, as a multiple of `correction_roundoff`. This
-  // estimate includes only one rounding of each force.
+  // Limit of the last correction of a stalled iteration, as a multiple of `correction_roundoff`.
+  // The multiple exceeds 1, because `correction_roundoff` includes only one rounding error of each
+  // force.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
       scheme_.acceleration_share * scheme_.relations.beta * h * h * scaled_norm(A1_);
@@ -369,9 +374,9 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
           convergence.last() <= kRoundoffErrors * correction_roundoff(h));
 }
 
-/// Estimates the correction that round-off errors of constraint forces and residuals cause, with
-/// arbitrary signs of these errors. It limits the accuracy of a small motion under large forces in
-/// mutual equilibrium, or near a singular position.
+/// Estimates the Newton correction that round-off errors of constraint forces and residuals cause,
+/// by random values of these errors. This correction limits the accuracy of motions near a singular
+/// position, and of small motions under large forces in mutual equilibrium.
 double ConstrainedStepper::correction_roundoff(double h) const {
   const Index n = system_.coordinate_count(), m = system_.constraint_count();
   VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);
@@ -437,7 +442,9 @@ class EnergyMomentum final : public ConstrainedStepper {
   VectorXd mean_lambda_, previous_mean_lambda_;
   VectorXd previous_constraint_residual_;
   Energy energy_;
-  double gap_ = 0, largest_gap_ = 0, largest_energy_ = 0, throughput_ = 0;  ///< [J]
+  /// Sum of the energy errors of all steps, largest magnitude of this sum, largest energy, and sum
+  /// of the magnitudes of the work [J].
+  double gap_ = 0, largest_gap_ = 0, largest_energy_ = 0, throughput_ = 0;
 };
 
 bool EnergyMomentum::assemble_tangent(double h, bool exact) {
@@ -451,7 +458,7 @@ bool EnergyMomentum::assemble_tangent(double h, bool exact) {
   coefficients.damping = h / 2;
   coefficients.stiffness = h * h / 4;
   coefficients.compliance = 2 / (h * h) / (0.5 + system_.strain_rate_damping() / h);
-  if (exact) {  // required near singular positions
+  if (exact) {  // the exact tangent is required near singular positions
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }
@@ -466,8 +473,9 @@ double EnergyMomentum::elastic_residual(Index r, double h) const {
   return -(sum - system_.row_compliance()[r] * to_.lambda[r]) / (0.5 + rate);
 }
 
-/// Computes the multipliers at the end of the step. Multipliers of elastic rows follow from the
-/// strain. Those of rigid rows are extrapolated from the mean multipliers of the last two steps.
+/// Computes the multipliers at the end of the step. Multipliers of elastic constraint rows follow
+/// from the strain. Multipliers of rigid rows are extrapolated from the mean multipliers of the
+/// last two steps.
 void EnergyMomentum::end_step(double h) {
   const double tau = system_.strain_rate_damping();
   const double extrapolation = first_ ? 1.0 : h / (h + last_step_);
@@ -480,8 +488,8 @@ void EnergyMomentum::end_step(double h) {
   }
 }
 
-/// Advances the state, and accumulates the energy error of the step: the change of energy minus the
-/// work.
+/// Advances the state, and adds the energy error of the step to `gap_`: the change of energy minus
+/// the work.
 void EnergyMomentum::advance() {
   ConstrainedStepper::advance();
   std::swap(previous_mean_lambda_, mean_lambda_);
@@ -492,7 +500,7 @@ void EnergyMomentum::advance() {
   throughput_ += std::abs(work);
   for (const Energy& e : {before, energy_})
     largest_energy_ = std::max(largest_energy_, e.kinetic + e.strain + std::abs(e.load));
-  // Lower limit of the energy scale, for systems at rest: work of the constraint forces on the
+  // Lower limit of the reference energy, for systems at rest: work of the constraint forces on the
   // round-off errors of the positions.
   largest_energy_ = std::max(largest_energy_, kEps * from_.lambda.cwiseAbs().dot(row_unit_));
   largest_gap_ = nan_max(largest_gap_, std::abs(gap_));

@@ -11,9 +11,9 @@
 
 namespace trammel::solver::large_motion {
 
-/// Largest residuals of the rigid constraints of a state.
+/// Largest residuals of the rigid constraints in a state.
 struct ConstraintGaps {
-  double position = 0, rate = 0;  ///< residual [m or rad], its rate [m/s or rad/s]
+  double position = 0, rate = 0;  ///< largest residual [m or rad], largest rate [m/s or rad/s]
   /// Largest residual of all constraints [-], and largest time derivative of a residual [1/s].
   /// Residuals are relative to the model size for translations and to 1 rad for rotations.
   double relative_position = 0, relative_rate = 0;
@@ -28,7 +28,7 @@ class MotionResiduals {
 
   /// Returns the largest residual of a row of the equation of motion, relative to the terms |M| |a|
   /// + |K| |q| + |G^T| |lambda| of this row. `state` is the state at the end of a step, and
-  /// `residual` the residual in the form of the time scheme.
+  /// `residual` is the residual of the equation of motion in the form of the time scheme.
   [[nodiscard]] double motion_residual(const State& state, const VectorXd& residual);
   [[nodiscard]] ConstraintGaps largest_gaps(const State& state);
 
@@ -41,11 +41,11 @@ class MotionResiduals {
   VectorXd unknowns_, terms_, magnitudes_, constraint_residual_, constraint_rate_;
 };
 
-/// Orientation of the assembly of a mechanism: the sign of det G, or of det (G, v) with one degree
-/// of freedom. G is the gradient of the constraints, and v the velocity. The signs of two assembly
-/// branches that meet at a singular position are opposite. If the mechanism moves farther in a
-/// time step than the distance between the branches, the step may end on the wrong branch. The
-/// residuals of such a step are only round-off errors.
+/// Assembly branch of a mechanism, identified by the sign of det G. With one degree of freedom, the
+/// sign of det (G, v) is used. G is the gradient of the constraints, and v the velocity. The signs
+/// of two assembly branches that meet at a singular position are opposite. If the mechanism moves
+/// farther in a time step than the distance between the branches, the step may end on the wrong
+/// branch. The residuals do not show this error, because all constraints are satisfied.
 class AssemblyBranch {
  public:
   /// @pre The system outlives this object.
@@ -55,25 +55,26 @@ class AssemblyBranch {
   [[nodiscard]] bool changes(const State& from, const State& to);
 
  private:
-  /// Returns the sign of det G, or of det (G, v) with one degree of freedom. Returns 0 if the sign
-  /// is undefined, as at a singular position or at rest.
+  /// Returns the sign that identifies the assembly branch: the sign of det G, or of det (G, v) with
+  /// one degree of freedom. Returns 0 if the sign is undefined, as at a singular position or at
+  /// rest.
   [[nodiscard]] double branch_sign(const State& state);
 
   const ConstrainedSystem& system_;
   Index freedom_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
-  double last_sign_ = 0;             ///< orientation after the last step on the same branch
-  std::optional<KktMatrix> matrix_;  ///< empty: the orientation is undefined
+  double last_sign_ = 0;             ///< sign after the last step without a branch change
+  std::optional<KktMatrix> matrix_;  ///< empty: the branch is not checked
 };
 
-/// Function that receives each state of the motion that is to be output.
+/// Function that receives each output state of a motion.
 using Observer = std::function<void(const State&)>;
 
 class StepConvergence;
 
 /// Generalized-alpha method (time_scheme.h) for constrained systems (M. Arnold, O. Bruls, MSD 18,
-/// 2007). It is of second order in positions, velocities and multipliers. In a step of size h with
-/// the algorithmic accelerations A:
+/// 2007). The method is of second order in positions, velocities and multipliers. In a step of size
+/// h with the algorithmic accelerations A:
 ///
 ///     q1 = q0 + h v0 + h^2 ((1/2 - beta) A0 + beta A1) + p,    M a1 + G^T lambda1 = f.
 ///
@@ -84,8 +85,8 @@ class StepConvergence;
 /// are scaled by h^2, so that tiny steps cause no problems.
 class ConstrainedStepper : public Stepper {
  public:
-  /// Creates a stepper that starts from the consistent state `start`. `observe` receives the states
-  /// to output.
+  /// Creates a stepper that starts from the consistent state `start`. `observe` receives the output
+  /// states.
   /// @pre All arguments except `start` outlive this object.
   ConstrainedStepper(const ConstrainedSystem& system, const TransientOptions& options,
                      const State& start, const Observer& observe);
@@ -108,8 +109,8 @@ class ConstrainedStepper : public Stepper {
   struct Scheme {
     TimeScheme relations;
     double error_constant = 0;
-    bool keeps_rates = true;  ///< velocities satisfy the rigid constraints at the ends of steps
-    double acceleration_share = 1;   ///< factor on the accelerations in `resolution`
+    bool keeps_rates = true;         ///< true: velocities satisfy rigid constraints at step ends
+    double acceleration_share = 1;   ///< factor of the accelerations in the limit `resolution`
     double resolution = 0;           ///< limit of corrections relative to accelerations
     double position_resolution = 0;  ///< limit of corrections relative to positions
   };
@@ -131,7 +132,7 @@ class ConstrainedStepper : public Stepper {
   virtual void compute_residual(Eigen::Ref<VectorXd> r) { system_.force_residual(to_, r); }
   /// Computes the residual r of the equation of motion in the last accepted step from its states.
   virtual void accepted_residual(Eigen::Ref<VectorXd> r) const { system_.force_residual(from_, r); }
-  /// Assembles the tangent matrix of a step of size h. @returns true if it is symmetric.
+  /// Assembles the tangent matrix of a step of size h. @returns true if the matrix is symmetric.
   virtual bool assemble_tangent(double h, bool exact);
   /// Returns the residual of the elastic constraint row r with compliance c and damping tau: -(g +
   /// tau dg/dt - c lambda), divided by d(g + tau dg/dt)/dg.

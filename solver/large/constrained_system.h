@@ -64,8 +64,8 @@ class ConstrainedSystem {
   /// Returns the reference value of each constraint row, by which its residual is divided: the
   /// model size [m] or 1 rad.
   [[nodiscard]] virtual VectorXd row_units() const;
-  /// Returns, for each element, the indices of the unknowns that it couples. They define the
-  /// sparsity pattern of `KktMatrix`.
+  /// Returns, for each element, the indices of the unknowns that the element couples. These indices
+  /// define the sparsity pattern of `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> coupled_unknowns() const = 0;
 
   /// Computes the residual of the equation of motion, r = M a - f + G^T lambda.
@@ -77,11 +77,11 @@ class ConstrainedSystem {
   /// Adds the tangent matrix of a state to `matrix`, which the caller has cleared.
   virtual void add_tangent(const State& state, const TangentCoefficients& coefficients,
                            KktMatrix& matrix) const = 0;
-  /// Returns false if the tangent matrix is not symmetric, as with follower loads.
+  /// Returns false if the tangent matrix is not symmetric, for example because of follower loads.
   [[nodiscard]] virtual bool has_symmetric_tangent() const { return true; }
   /// Returns the coefficient tau of strain-rate damping [s].
   [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
-  /// Returns the factor on the loads at time t.
+  /// Returns the factor on the loads at a time.
   [[nodiscard]] virtual double load_factor(double) const { return 1; }
 
  protected:

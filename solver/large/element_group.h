@@ -14,14 +14,14 @@
 
 namespace trammel::solver::large_motion {
 
-/// Typical stiffness and mass of the members and bodies that a constraint row joins. They determine
-/// the penalty rho of the row (`KktMatrix`).
+/// Typical stiffness and mass of the members and bodies that a constraint row joins. Stiffness and
+/// mass determine the penalty rho of the row (see `KktMatrix`).
 struct RowScales {
   /// Reference value of the residual of the constraint row: 1 rad if all coordinates in the row are
   /// rotations, otherwise the model size [m].
   double unit = 1;
   /// Largest stiffness and largest mass of the coordinates in the constraint row, in the unit of
-  /// the row. If all of them are zero, the mean over the model is used.
+  /// the row. If all values in the row are zero, the mean over the model is used.
   double stiffness = 0, mass = 0;
 };
 
@@ -34,7 +34,7 @@ class PenaltyScales {
                 const Eigen::VectorXd& mass, double size);
 
   /// Returns the typical stiffness and mass of a constraint row with the given coordinates. If the
-  /// translations in the row have no stiffness or mass, those of the rotations, divided by the
+  /// translations in the row have no stiffness or mass, the values of the rotations, divided by the
   /// squared `lever` [m], are used.
   [[nodiscard]] RowScales row_scales(std::span<const Index> coordinates, double lever) const;
 
@@ -123,10 +123,10 @@ class ElementGroup {
     }
   }
 
-  /// Adds to `system`, for each element, the indices of the unknowns that it couples, and the
-  /// compliances and units of its constraint rows. Joints also get the stiffness and mass of the
-  /// joined members or bodies, which determine their penalties. Coordinates with indices of at
-  /// least `free` are held by supports.
+  /// Adds to `system`, for each element, the indices of the unknowns that the element couples, and
+  /// the compliances and units of its constraint rows. In joints, the typical stiffness and mass of
+  /// the joined members or bodies are also set, which determine the penalties. Coordinates with
+  /// indices of at least `free` are held by supports.
   void append_system_rows(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
@@ -149,7 +149,8 @@ class ElementGroup {
     }
   }
 
-  /// Adds the terms -f + G^T lambda of the equation of motion, with strain-rate damping tau.
+  /// Adds the terms -f + G^T lambda of all elements to the residual r of the equation of motion.
+  /// tau is the coefficient of strain-rate damping.
   void add_forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
@@ -165,7 +166,7 @@ class ElementGroup {
     }
   }
 
-  /// Adds the derivative of the force residual with respect to the load factor.
+  /// Adds the derivative of the force residual with respect to the load factor, for all elements.
   void add_load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
     if constexpr (kIsLoad) {
       for (Index e = 0; e < size(); ++e) {
@@ -206,7 +207,8 @@ class ElementGroup {
     }
   }
 
-  /// Returns the strain energy [J], without the energy of compliant constraint rows.
+  /// Returns the strain energy of all elements [J], without the energy of compliant constraint
+  /// rows.
   [[nodiscard]] double energy(const State& state) const {
     double sum = 0;
     if constexpr (kIsElastic) {

@@ -142,7 +142,7 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
 }
 
 Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
-  constexpr double kDriven = 1e-9;  // least work of loads over the product of the norms
+  constexpr double kDriven = 1e-9;  // least relative work of the loads on a driven motion
   FreeMotion found;
   const Index n = system_.coordinate_count();
   if (n == 0) return found;
@@ -251,9 +251,9 @@ StaticSolution estimate_large_statics(const Model& model,
                                       const large_motion::LargeMotionModel& large_motion) {
   // The corrections alternate between bending and the resulting axial forces, so that only every
   // second correction is smaller than the previous one. If the convergence is fast, ten corrections
-  // yield six digits.
+  // yield six correct digits.
   const large_motion::NewtonOptions options{
-      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // keeps the first tangent
+      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // reuses the first tangent
   const large_motion::GeometricallyExactSystem system(model, large_motion);
   large_motion::Equilibrium equilibrium(system, options);
   large_motion::State state = system.reference_state();

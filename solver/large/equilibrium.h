@@ -47,49 +47,52 @@ class Equilibrium {
   /// equilibria.
   void freeze_damping_forces(const State& moving);
 
-  /// Computes the equilibrium at the load factor `load_factor`, which is also the time of drives,
-  /// from a start state. `control` may change the load factor. The state is unchanged on failure.
+  /// Computes the equilibrium at the load factor `load_factor` by Newton's method with the start
+  /// value `state`. Drives are evaluated at the time `load_factor`. `control` may change the load
+  /// factor. If the method fails, `state` is unchanged.
   [[nodiscard]] NewtonResult solve(State& state, double load_factor,
                                    const LoadControl& control = {});
 
-  /// Factors the tangent matrix at a state. @return false if it is singular to working precision.
+  /// Factors the tangent matrix at a state. @return false if the matrix is singular to working
+  /// precision.
   [[nodiscard]] bool factorize_tangent(const State& state);
-  /// Factors the tangent matrix at a state. The last factorization is kept if its state differs by
-  /// at most `relative` times the size of the state.
+  /// Factors the tangent matrix at a state. The last factorization is kept if its state differs
+  /// from `state` by at most `relative` times the size of `state`.
   [[nodiscard]] bool factor_if_moved(const State& state, double relative);
-  /// Computes dq/dload and dlambda/dload with the last factored tangent, as (dq, dlambda).
+  /// Computes `direction` = (dq/dload, dlambda/dload) with the last factored tangent matrix.
   void load_factor_sensitivity(const State& state, VectorXd& direction);
-  /// Computes one Newton correction `step`, which solves: tangent matrix * step = -residual.
+  /// Computes one Newton correction `step`, which solves: tangent matrix * step = -residual. Norms
+  /// of the residual and of the correction are appended to `history`.
   void newton_correction(const State& state, VectorXd& step, NewtonResult& history);
   /// Returns the largest backward error |r| / (|K| |x| + |load|) of all rows in a state. r is the
   /// residual of equilibrium and constraints, x the unknowns, and K a newly assembled tangent.
   [[nodiscard]] double backward_error(const State& state);
-  /// Returns the smallest absolute eigenvalue of the scaled tangent matrix [N m], and its mode
-  /// shape. It is computed by inverse iteration with the last factors.
+  /// Returns the smallest absolute eigenvalue of the scaled tangent matrix [N m], and sets `shape`
+  /// to its mode shape. The eigenvalue is computed by inverse iteration with the last factors.
   double smallest_eigenpair(VectorXd& shape);
 
   /// Motion for which the last tangent matrix has no stiffness: its strain energy is within the
   /// round-off error of the terms of this energy.
   struct FreeMotion {
     bool exists = false;
-    bool is_driven = false;  ///< the loads do work on the motion
-    VectorXd shape;          ///< mode shape of the smallest eigenvalue, even without a free motion
-    Index coordinate = 0;    ///< coordinate with the largest motion
-    double stiffness = 0;    ///< typical stiffness of that coordinate [N/m or N m/rad]
+    bool is_driven = false;  ///< true: the loads do work on the motion
+    VectorXd shape;          ///< mode shape of the smallest eigenvalue, even if not free
+    Index coordinate = 0;    ///< coordinate with the largest motion in `shape`
+    double stiffness = 0;    ///< typical stiffness of `coordinate` [N/m or N m/rad]
   };
   /// Checks if the mode of the smallest eigenvalue of the last tangent matrix is a free motion.
   [[nodiscard]] FreeMotion free_motion(const State& state);
   /// Fixes a coordinate in all following tangent matrices by an additional stiffness. A member or
   /// body that can move freely therefore remains in place if no force acts along its free motion.
-  /// The motion counts neither as stable nor as unstable.
+  /// The free motion is then not counted as an unstable direction.
   void restrain_coordinate(Index coordinate, double stiffness) {
     held_.emplace_back(coordinate, stiffness);
     factored_ = State();
   }
 
-  /// Returns true if Newton's method has converged for a displacement of the given size. This is
-  /// the case if the last correction is small enough, or if the corrections no longer decrease at
-  /// the level of round-off.
+  /// Returns true if Newton's method has converged for a displacement of the given size. The method
+  /// has converged if the last correction is small enough, or if the corrections stagnate at the
+  /// level of round-off errors.
   [[nodiscard]] bool converged(const std::vector<double>& correction, double displacement) const;
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
@@ -103,8 +106,8 @@ class Equilibrium {
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_, load_step_;
   State factored_;         ///< state of the last factored tangent
-  VectorXd held_damping_;  ///< damping forces of `freeze_damping_forces`; empty: none
-  std::vector<std::pair<Index, double>> held_;  ///< held coordinates and their stiffness
+  VectorXd held_damping_;  ///< damping forces of `freeze_damping_forces`; may be empty
+  std::vector<std::pair<Index, double>> held_;  ///< restrained coordinates, additional stiffness
   VectorXd force_unit_;                         ///< unit of each multiplier: 1/m or 1/rad
 };
 
@@ -129,8 +132,8 @@ void count_element_evaluations(const large_motion::GeometricallyExactSystem& sys
 
 /// Solves statics with large displacement to six digits. Residuals that support the solution
 /// (`Evidence`) are not computed. All Newton corrections use the tangent of the unloaded model. If
-/// they decrease too slowly, or the number of unstable directions changes, the function calls
-/// `solve_large_statics`.
+/// the corrections decrease too slowly, or the number of unstable directions changes, the function
+/// calls `solve_large_statics`.
 [[nodiscard]] StaticSolution estimate_large_statics(
     const Model& model, const large_motion::LargeMotionModel& large_motion = {});
 

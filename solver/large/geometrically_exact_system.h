@@ -40,22 +40,22 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   }
   [[nodiscard]] double load_factor(double t) const override;
 
-  // Discrete gradients are forces between two states. Their work between these states equals the
-  // change of the energy exactly.
+  // Discrete gradients are mean forces of a time step. The work of these forces in the step equals
+  // the change of the energy exactly.
 
   /// Computes the residual r = M (v1 - v0) / h - f + D^T lambda of a step of size h. The discrete
   /// gradient D of the constraints g satisfies D (q1 - q0) = g(q1) - g(q0) exactly.
   void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                                   Eigen::Ref<VectorXd> r) const;
-  /// Adds the derivative of `discrete_gradient_residual` with respect to the state `to`. Its error
-  /// is proportional to the square of the step, because element matrices are evaluated at the state
-  /// `midpoint`. The matrix is not symmetric.
+  /// Adds the derivative of `discrete_gradient_residual` with respect to the state `to` to a
+  /// matrix. The error of the derivative is proportional to the square of the step, because element
+  /// matrices are evaluated at the state `midpoint`. The matrix is not symmetric.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  const TangentCoefficients& coefficients, KktMatrix& matrix) const;
   [[nodiscard]] Energy energy(const State& state) const;
-  /// Returns the work that changes the energy in a step [J]. It is the work of drives and of loads
-  /// that vary or follow their nodes, minus the energy dissipated by damping. `lambda` are the mean
-  /// multipliers of the step.
+  /// Returns the work that changes the energy in a step [J]. The result is the work of drives,
+  /// time-varying loads and follower loads, minus the energy dissipated by damping. `lambda`
+  /// contains the mean multipliers of the step.
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const;
 
@@ -67,12 +67,12 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   void set_damping_reference_velocity(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
   }
-  /// Returns the velocities that mass-proportional damping multiplies: those of the state minus the
-  /// reference velocities.
+  /// Returns the velocities on which mass-proportional damping acts: the velocities of the state
+  /// minus the reference velocities.
   [[nodiscard]] VectorXd damped_velocities(const State& state) const;
 
-  /// Scales loads, gravity and inertia forces of statics by `load_factor`, which is also the time
-  /// of drives.
+  /// Sets the factor on loads, gravity and inertia forces of a static state. Drives are evaluated
+  /// at the time `load_factor`.
   void set_load_factor(State& state, double load_factor) const;
   /// Computes the derivative of the force residual with respect to the load factor of loads,
   /// gravity and inertia forces.
@@ -85,7 +85,8 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] const LargeMotionModel& large_motion() const { return large_motion_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const SystemParts& parts() const { return parts_; }
-  /// Returns the index of the constraint row of a drive, and of its multiplier.
+  /// Returns the index of the constraint row of a drive. The multiplier of the drive has the same
+  /// index.
   [[nodiscard]] Index drive_row(Index drive) const {
     return parts_.group<DrivenCoordinate>().first_constraint_row(drive);
   }

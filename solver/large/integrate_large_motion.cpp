@@ -21,8 +21,8 @@ void add_constraints(const ConstraintGaps& gaps, IntegrationSummary& summary) {
   largest.relative_position = nan_max(largest.relative_position, gaps.relative_position);
 }
 
-/// Integrates the motion from a state. `conservative` is the system for the energy-momentum method,
-/// or null for generalized-alpha.
+/// Integrates the motion from a state. `conservative` is the system if the energy-momentum method
+/// is used, or null for generalized-alpha.
 IntegrationSummary run(const ConstrainedSystem& system,
                        const GeometricallyExactSystem* conservative, State& state,
                        const TransientOptions& options, const Observer& observe) {
@@ -56,8 +56,8 @@ Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocit
   return k < system.coordinate_count() ? k : -1;
 }
 
-/// Returns a prescribed initial velocity that the constraints do not admit, or null. The velocity
-/// `left_out` is not checked.
+/// Returns a prescribed initial velocity that the constraints do not admit, or null if they admit
+/// all velocities. The velocity `left_out` is not checked.
 const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, const State& state,
                                         const InitialVelocity* left_out = nullptr) {
   constexpr double kRounding = 1e-6;
@@ -115,7 +115,7 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   // velocities and the constraints require at the same coordinate.
   State admitted;
   if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
-    message << ", nor do they admit the other given velocities together";
+    message << ", nor do the constraints admit the other given velocities";
   } else {
     constexpr double kRounding = 1e-9;
     const Index k = coordinate_of(system, *refused);
@@ -160,7 +160,8 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   Outcome recovered;
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
     // Exclude the first state from the member balance. If the step does not resolve all vibrations,
-    // its accelerations are those of an implicit step and do not satisfy the equation of motion.
+    // the first accelerations are those of an implicit step and do not satisfy the equation of
+    // motion.
     if (at.t > start && !conserves) balance.add_state(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);

@@ -9,7 +9,7 @@ namespace trammel::solver::large_motion {
 
 /// Result of a time integration in large motion.
 struct IntegrationSummary : TransientSummary {
-  ConstraintGaps constraints;  ///< largest residuals at the observed times
+  ConstraintGaps constraints;  ///< largest constraint residuals of all output states
 };
 
 /// Integrates the motion by the generalized-alpha method from a consistent state to the end time.
@@ -26,9 +26,9 @@ struct IntegrationSummary : TransientSummary {
 
 /// Integrates the motion with `step` and `step`/2 and extrapolates both results, which removes
 /// their error of second order. The result has order 3 (order 4 by energy-momentum). The step is
-/// fixed, and sample times must be multiples of it. Observed states contain q, v and lambda only.
-/// They satisfy the constraints up to the extrapolation error. The outcome is not_converged if this
-/// error exceeds a thousandth of the model size.
+/// fixed, and sample times must be multiples of the step. Output states contain q, v and lambda
+/// only. These states satisfy the constraints up to the extrapolation error. The outcome is
+/// not_converged if this error exceeds a thousandth of the model size.
 [[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system,
                                                         State& state,
                                                         const TransientOptions& options,

@@ -7,17 +7,19 @@
 #include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
-/// Joints, springs, bars and masses with the same functions as `Beam`. A type with constraint rows
-/// g computes g and its gradient G. If the second derivative of g is not zero, the type computes
-/// this derivative times the multipliers. If the discrete gradient D differs from G, the type
-/// computes D with D (q1 - q0) = g(q1) - g(q0) (O. Gonzalez, J. Nonlinear Sci. 6, 1996).
+/// Element types for joints, springs, bars, masses and follower forces, with the same interface as
+/// `Beam`. A type with constraint rows g computes g and its gradient G. If the second derivative of
+/// g is not zero, the type computes this derivative times the multipliers. If the discrete gradient
+/// D differs from G, the type computes D with D (q1 - q0) = g(q1) - g(q0) (O. Gonzalez, J.
+/// Nonlinear Sci. 6, 1996).
 namespace trammel::solver::large_motion {
 
-/// Joint with rigid constraint rows. Their penalty rho (`KktMatrix`) depends on the joined parts.
+/// Joint with rigid constraint rows. The penalty rho of the rows (see `KktMatrix`) depends on the
+/// joined members or bodies.
 template <int Coords, int Count>
 struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;
-  double stiffness_scale = 1, mass_scale = 1;  ///< stiffness, mass of the joined parts [N/m], [kg]
+  double stiffness_scale = 1, mass_scale = 1;  ///< of the joined members or bodies [N/m], [kg]
 
   [[nodiscard]] Rows row_compliance() const { return Rows::Zero(); }
   [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const {
@@ -30,7 +32,7 @@ struct Joint : ElementSizes<Coords, Count> {
 /// (R(theta_a) - I) d = 0. The coordinates are ua (2), theta_a, ub (2).
 /// Source: Varalakshmi & Srinivas (2017), Eq. 20-24.
 struct RigidLink : Joint<5, 2> {
-  Vector2d offset = Vector2d::Zero();  ///< d, vector from a to b without load [m]
+  Vector2d offset = Vector2d::Zero();  ///< vector d from a to b in the pose of the model [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d normal = perpendicular(offset);
@@ -58,8 +60,8 @@ struct RigidLink : Joint<5, 2> {
 /// Sliding joint of node b on a line with the normal n. The line turns with node a, or is fixed if
 /// a is the ground: n(theta_a) . (x_b - x_a) = const. The coordinates are ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
-  Vector2d normal = Vector2d::UnitY();  ///< normal n of the line without load
-  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a without load [m]
+  Vector2d normal = Vector2d::UnitY();  ///< normal n of the line in the pose of the model
+  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a in the pose of the model [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d n = rotated(normal, q[2]);
@@ -154,10 +156,10 @@ struct LineSpringElement : Joint<4, 1> {
   [[nodiscard]] Rows row_compliance() const { return Rows::Constant(flexibility); }
 };
 
-/// Member without bending stiffness: a line spring with the compliance h/EA. The displacement of
-/// its mass is linear between the ends.
+/// Member without bending stiffness: a line spring with the compliance h/EA. The mass is
+/// distributed along the bar, and its displacement is linear between the ends.
 struct Bar : LineSpringElement {
-  double total_mass = 0;  ///< [kg]
+  double total_mass = 0;  ///< mass of the bar [kg]
   bool lumped = false;
 
   [[nodiscard]] Square mass() const {
@@ -198,7 +200,7 @@ struct CoordinateSpring : ElementSizes<2, 0> {
 
 /// Mass or moment of inertia of one coordinate.
 struct PointInertia : ElementSizes<1, 0> {
-  double value = 0;  ///< [kg or kg m^2]
+  double value = 0;  ///< mass or moment of inertia [kg or kg m^2]
 
   [[nodiscard]] Square mass() const { return Square(value); }
 };

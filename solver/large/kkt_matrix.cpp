@@ -45,8 +45,8 @@ void KktMatrix::set_elimination_order(const Blocks& blocks) {
     const Eigen::SparseMatrix<double> pattern = matrix_.topLeftCorner(n, n);
     Eigen::AMDOrdering<int>()(pattern, elimination);
   }
-  // Sort key of each unknown: twice the position of a coordinate in the elimination order. A row
-  // follows directly after the last of its coordinates.
+  // Sort key of each unknown. The key of a coordinate is twice its position in the elimination
+  // order. A constraint row follows directly after the last coordinate of the row.
   Indices key = Indices::Constant(size, -1);
   for (Index p = 0; p < n; ++p) key[elimination.indices()[p]] = 2 * p;
   for (const std::vector<Index>& block : blocks) {

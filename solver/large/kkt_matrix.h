@@ -22,27 +22,28 @@ using Eigen::VectorXd;
 ///     [ S + G^T rho G   G^T E ] [ dq ]   [ b ]
 ///     [ E G             -C E  ] [ y  ] = [ d ],   E = 1 - rho C,   dlambda = y + (rho / E) d.
 ///
-/// The upper left block is positive definite if the structure is stable. Each row is eliminated
-/// after its coordinates. LDL^T therefore needs no pivoting, and its negative pivots count the
-/// unstable directions. A compliance of at least 1e-11 / rho in each row keeps the matrix regular
-/// if constraints are redundant. With rho = 0 the second matrix equals the first one, so that
-/// products with it have no round-off errors of penalties. The sparsity pattern is set once.
-/// Assembling, factoring and solving reuse its memory.
+/// The upper left block is positive definite if the structure is stable. Each constraint row is
+/// eliminated after its coordinates. LDL^T therefore needs no pivoting, and the number of unstable
+/// directions follows from the number of negative pivots. A compliance of at least 1e-11 / rho in
+/// each row keeps the matrix regular if constraints are redundant. With rho = 0, the second matrix
+/// equals the first matrix, and products with this matrix have no round-off errors of penalties.
+/// The constructor sets the sparsity pattern. Assembling, factoring and solving reuse the memory of
+/// this pattern.
 class KktMatrix {
  public:
   using Blocks = std::vector<std::vector<Index>>;
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-  /// Sets the sparsity pattern for free coordinates and constraint rows, which are numbered after
-  /// the coordinates. `blocks` contains the unknowns that each element couples. Every row belongs
-  /// to exactly one block. Negative unknowns are ignored.
+  /// Sets the sparsity pattern. The unknowns are the free coordinates, followed by the multipliers
+  /// of the constraint rows. `blocks` contains the unknowns that each element couples. Every row
+  /// belongs to exactly one block. Negative unknowns are ignored.
   KktMatrix(Index coordinates, Index constraints, const Blocks& blocks);
   ~KktMatrix();
 
   void clear();
 
-  /// Adds the matrix S of an element to the assembled matrix. The rows of S are the coordinates of
-  /// the element, or all unknowns that it couples (`block`).
+  /// Adds the matrix S of an element to the assembled matrix. `block` is the index of the element.
+  /// The rows of S are the coordinates of the element, or all unknowns that the element couples.
   template <class Matrix>
   void add(Index block, const Matrix& S) {
     const Index n = S.rows();
@@ -56,9 +57,10 @@ class KktMatrix {
     }
   }
 
-  /// Adds an element with n coordinates and m constraint rows: S (n x n), G (m x n) in the rows,
-  /// D^T in the columns of the multipliers, compliances c and penalties rho (m). D equals G if the
-  /// matrix is symmetric.
+  /// Adds the terms of an element with n coordinates and m constraint rows. S (n x n) is added in
+  /// the coordinates, G (m x n) in the constraint rows, and D^T (n x m) in the columns of the
+  /// multipliers. D equals G if the matrix is symmetric. c and rho are the m compliances and
+  /// penalties.
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
@@ -84,15 +86,15 @@ class KktMatrix {
   void add_diagonal(Index coordinate, double value);
 
   /// Factors the matrix by LDL^T, or by LU if it is not symmetric or a pivot vanishes. @return
-  /// false if it is singular to working precision.
+  /// false if the matrix is singular to working precision.
   [[nodiscard]] bool factor(bool symmetric);
 
   /// Solves the equations in place: the right-hand side (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
-  /// Returns the product of the assembled matrix with x = (q, y) in extended precision, because the
-  /// stiffness of a soft joint is a small difference of large products of stiff members. y is
-  /// lambda if the matrix was assembled without penalties.
+  /// Returns the product of the assembled matrix with x = (q, y) in extended precision. The higher
+  /// precision is required because the stiffness of a soft joint is a small difference of large
+  /// products of stiff members. y is lambda if the matrix was assembled without penalties.
   [[nodiscard]] Extended multiply(const Extended& x) const;
 
   /// Returns the constraint gradient G scaled by the units of its rows and of the coordinates: G_rk
@@ -102,10 +104,10 @@ class KktMatrix {
                                                     const VectorXd& row_units) const;
 
   /// Returns the energy of a motion relative to its round-off error, which results from the rounded
-  /// entries of the matrix A. Coordinate i contributes |x_i| sum_j |A_ij x_j|, and the error is
-  /// 16 epsilon times the root of the sum of the squared contributions. A motion with a value of at
-  /// most 1 is free. With the sum of contributions as error, smooth motions of fine meshes would
-  /// count as free.
+  /// entries of the matrix A. Coordinate i contributes |x_i| sum_j |A_ij x_j|, and the round-off
+  /// error is 16 epsilon times the root of the sum of the squared contributions. A motion is free
+  /// if the returned ratio is at most 1. If the plain sum of the contributions were used as error,
+  /// smooth motions of fine meshes would count as free.
   [[nodiscard]] double energy_over_roundoff(const Extended& x) const;
 
   /// Computes the sum of the magnitudes of the terms of each equation with the unknowns x = (q,
@@ -113,7 +115,7 @@ class KktMatrix {
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 
   /// Returns the number of unstable directions: the number of negative pivots minus the number of
-  /// constraints. It is -1 if the matrix was not factored by LDL^T.
+  /// constraints. The result is -1 if the matrix was not factored by LDL^T.
   [[nodiscard]] Index unstable_direction_count() const;
 
   [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
@@ -129,10 +131,10 @@ class KktMatrix {
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< order of elimination
   Eigen::SparseMatrix<double> matrix_;                    ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
-  std::vector<int> value_index_;  ///< position of block entries in the values; -1: not free
-  std::vector<int> diagonal_;     ///< position of each coordinate's diagonal in the values
-  std::vector<Index> first_row_;  ///< first row of each block
-  VectorXd multiplier_scaling_;   ///< rho / E of each row
+  std::vector<int> value_index_;  ///< index of each block entry in the value array; -1: held
+  std::vector<int> diagonal_;     ///< index of each diagonal entry in the value array
+  std::vector<Index> first_row_;  ///< first constraint row of each block
+  VectorXd multiplier_scaling_;   ///< rho / E of each constraint row
   std::unique_ptr<Factors> factors_;
   mutable VectorXd work_, solution_;
   mutable std::int64_t solves_ = 0;

@@ -40,7 +40,8 @@ struct StaticInstant {
   State state;
 };
 
-/// Adds a node for the driven end of a distal link at each joint that resists relative rotation.
+/// Adds a node for the end of a distal link at each joint that resists relative rotation. The
+/// rotation of this node is driven. Returns the driven ends.
 std::vector<DrivenEnd> add_driven_ends(Model& model) {
   std::vector<DrivenEnd> ends;
   for (std::size_t m = 1; m < model.members.size(); m += 2) {
@@ -114,14 +115,15 @@ class LargeElastodynamics {
     return state;
   }
 
-  /// Returns the motion of the rigid parts at the time of `to`, relative to the pose `from`.
+  /// Returns the motion of the rigid links and platform at the time of `to`, relative to the pose
+  /// of `from`.
   [[nodiscard]] NominalMotion motion_between(const NominalState& from,
                                              const NominalState& to) const {
     return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
-  /// Returns the drives of all joints. If `moves` is false, they hold the joints in the pose of the
-  /// model.
+  /// Returns the drives of all joints. If `moves` is false, the drives hold the joints in the pose
+  /// of the model.
   [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
                                         bool moves) const {
     LargeMotionModel large_motion;
@@ -200,8 +202,9 @@ class LargeElastodynamics {
     return true;
   }
 
-  /// Computes a quasi-static start with damping, K q = f - C v. The velocities v are second-order
-  /// differences of the solutions of K q = f. Linear elastodynamics starts in the same way.
+  /// Computes a quasi-static start with damping, K q = f - C v. The velocities v are finite
+  /// differences of second order of the solutions of K q = f. Linear elastodynamics starts in the
+  /// same way.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const double h =
         smooth_load_interval(options_.load_history.breakpoint_times(), options_.time) / 2;
@@ -247,7 +250,7 @@ class LargeElastodynamics {
     if (solution_.outcome.solved()) integrate_from(system, state);
     if (solution_.state.empty() || solution_.time.front() != options_.time.start) return;
     // Replace the first sample, because the integrator starts with the accelerations of an implicit
-    // step instead of those of the motion.
+    // step instead of the exact accelerations.
     if (!options_.time.quasi_static_start) {
       replace_start_by_linear_theory();
     } else {
@@ -297,7 +300,7 @@ class LargeElastodynamics {
       result.counters.add(Effect::damping, summary.iterations);
   }
 
-  /// Adds the results of a state to the samples.
+  /// Adds the results of a state to the samples of the solution.
   void add_sample(const GeometricallyExactSystem& system, const State& state,
                   const NominalState& built, const NominalState& now) {
     StaticSolution sample = sample_of(system, state, built, now);
@@ -368,16 +371,16 @@ const char* reason_no_large_displacement(const ElastodynamicsOptions& options, c
   const bool six_nodes = std::any_of(model.triangles.begin(), model.triangles.end(),
                                      [](const Triangle& triangle) { return triangle.quadratic(); });
   const std::vector<double>& times = options.load_history.time;
-  if (!driven) return "it requires actuators that follow the path instead of free ones";
-  if (tied) return "it does not support platform joints of type eq25-mean or eq25-sum";
-  if (!options.nominal_inertia) return "it requires the inertia forces of the nominal motion";
-  if (options.modal_superposition) return "it does not support modal superposition";
-  if (options.time.adaptive) return "it requires fixed steps without error control";
+  if (!driven) return "the actuators must follow the path instead of moving freely";
+  if (tied) return "platform joints of type eq25-mean or eq25-sum are not supported";
+  if (!options.nominal_inertia) return "the inertia forces of the nominal motion are required";
+  if (options.modal_superposition) return "modal superposition is not supported";
+  if (options.time.adaptive) return "fixed time steps without error control are required";
   if (std::adjacent_find(times.begin(), times.end()) != times.end())
-    return "it requires a load history without jumps, which its steps do not resolve";
+    return "the load history must not have jumps, which time steps cannot resolve";
   if (std::isfinite(stability_limit(options.time.scheme)))
-    return "it requires a scheme that is stable for any step";
-  if (six_nodes) return "it does not support six-node triangles";
+    return "the time scheme must be stable for any step size";
+  if (six_nodes) return "six-node triangles are not supported";
   return nullptr;
 }
 
@@ -391,13 +394,14 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Rotation of a part at a time [rad], and its rate [rad/s].
+/// Rotation of a rigid link or of the platform at a time [rad], and the rate of the rotation
+/// [rad/s].
 struct Turn {
   double time = 0, angle = 0, rate = 0;
 };
 
 /// Extends a function of time beyond the ends of the path by extrapolation with the acceleration
-/// and its rate at the end.
+/// and the rate of the acceleration at the end.
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
@@ -433,7 +437,7 @@ TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, dou
   };
   const auto last = std::make_shared<Turn>(Turn{start, 0, seen(motion(start).q_dot)});
   const auto law = [motion, seen, before = seen(motion(start).q), last](double t) {
-    constexpr double kSmall = 0.5;  // increment of the rotation [rad]
+    constexpr double kSmall = 0.5;  // largest increment of the rotation [rad]
     while (true) {
       const double left = t - last->time, limit = kSmall / std::abs(last->rate);
       double step = std::abs(left) > limit ? std::copysign(limit, left) : left;
@@ -443,7 +447,7 @@ TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, dou
       const double within = seen(now.q) - before, turns = 2 * std::numbers::pi;
       const double angle = within + turns * std::round((last->angle - within) / turns);
       const std::array<double, 3> found = {angle, seen(now.q_dot), seen(now.q_ddot)};
-      const bool lost = !std::isfinite(angle + found[1]);  // path beyond the reach, or singular
+      const bool lost = !std::isfinite(angle + found[1]);  // pose is out of reach or singular
       if (lost || (next.time == last->time && next.time != t)) return found;
       *last = {next.time, angle, found[1]};
       if (next.time == t) return found;

@@ -30,19 +30,19 @@ namespace trammel::solver {
 ///
 /// The outcome is not_converged if a path of equilibria or a step fails.
 /// @throws ModelError  as `solve_elastodynamics`; if `reason_no_large_displacement` returns a
-/// reason;
-///   or without elastic inertia if there are no sample times.
+///   reason; or if there are neither elastic inertia nor sample times.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
 
-/// Returns the reason why `solve_large_elastodynamics` does not support a motion, or null. `model`
-/// is the manipulator at the start of the motion.
+/// Returns the reason why `solve_large_elastodynamics` does not support a motion, or null if the
+/// motion is supported. `model` is the manipulator at the start of the motion.
 [[nodiscard]] const char* reason_no_large_displacement(const ElastodynamicsOptions& options,
                                                        const Model& model);
 
 }  // namespace trammel::solver
 
-/// Joint motions of the rigid manipulator on its path. Drives prescribe them as functions of time.
+/// Joint rotations of the rigid manipulator on its path. Drives prescribe these rotations as
+/// functions of time.
 namespace trammel::solver::large_motion {
 
 /// Function that returns the motion of the rigid manipulator at a time.
@@ -52,26 +52,26 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// because all joints and all corrections of a step request the motion at the same time.
 [[nodiscard]] RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate);
 
-/// Returns the rotation of a part since the time `start` relative to the part `from` or the ground
-/// (-1) [rad], including full turns, as a function of time. Parts are indices in
-/// `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. To count full
-/// turns, the rotation is followed from the last requested time in increments of at most 0.5 rad.
-/// Beyond the ends of the path, the rotation is extrapolated with the acceleration and its rate at
-/// the end. Central differences in time at the first and last times of the path require values
-/// beyond its ends.
+/// Returns the rotation of a part since the time `start` as a function of time. The rotation [rad]
+/// includes full turns and is relative to the part `reference_part` or the ground (-1). Parts are
+/// indices in `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. To
+/// count full turns, the rotation is followed from the last requested time in increments of at most
+/// 0.5 rad. Beyond the ends of the path, the rotation is extrapolated with the acceleration and the
+/// rate of the acceleration at the end. Central differences in time at the first and last times of
+/// the path require values beyond its ends.
 [[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
                                               double start, Index part, Index reference_part = -1);
 
-/// Additional node at a joint for the end of a distal link. Its rotation is driven relative to the
-/// node of the joint.
+/// Additional node at a joint for the end of a distal link. The rotation of this node is driven
+/// relative to the node of the joint.
 struct DrivenEnd {
   Index node = 0, beside = 0;
-  Index part = 0, from = 0;  ///< indices of both parts in `InverseDynamics::q`
+  Index part = 0, from = 0;  ///< indices of link and joined part in `InverseDynamics::q`
   std::size_t member = 0;
 };
 
-/// Returns rates of the coordinates if all parts move rigidly: velocities (order 1) or
-/// accelerations (order 2). The nodes of the driven `ends` are the last nodes of the model.
+/// Returns rates of the coordinates if all links and the platform move rigidly: velocities (order
+/// 1) or accelerations (order 2). The nodes of the driven `ends` are the last nodes of the model.
 [[nodiscard]] VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
                                                  const NominalMotion& motion, int order,
                                                  const std::vector<DrivenEnd>& ends = {});

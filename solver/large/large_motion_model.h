@@ -31,7 +31,7 @@ struct Drive {
 struct Torque {
   std::string name;
   Index node = 0;
-  std::function<double(double)> law;  ///< [N m]
+  std::function<double(double)> law;  ///< torque [N m] as a function of time [s]
 };
 
 /// Node that slides along a line through its position in the pose of the model. The line turns with
@@ -48,7 +48,7 @@ struct Slider {
 struct LineSpring {
   std::string name;
   std::array<Index, 2> nodes{-1, -1};
-  double stiffness = 0;  ///< [N/m]
+  double stiffness = 0;  ///< stiffness along the line [N/m]
   /// Length of the spring without force [m]; NaN: the distance of its nodes in the pose of the
   /// model.
   double rest_length = std::numeric_limits<double>::quiet_NaN();
@@ -57,7 +57,7 @@ struct LineSpring {
 /// Force and moment on a node that rotate with the node.
 struct FollowerLoad {
   Index node = 0;
-  Vector3d force = Vector3d::Zero();  ///< in the pose of the model [N, N, N m]
+  Vector3d force = Vector3d::Zero();  ///< force, moment in the pose of the model [N, N, N m]
 };
 
 /// Initial velocity of a node. Velocities that are not given minimize the kinetic energy.
@@ -78,7 +78,7 @@ struct LargeMotionModel {
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
   std::vector<double> load_breakpoints;  ///< times of jumps and kinks of the factor, ascending [s]
   double mass_damping = 0;               ///< factor of the forces -mass_damping M v [1/s]
-  double strain_rate_damping = 0;  ///< stress from strain + strain_rate_damping * strain rate [s]
+  double strain_rate_damping = 0;        ///< tau in stress = D (strain + tau * strain rate) [s]
 };
 
 /// Checks the node indices and the numbers of drives, loads and joints.
@@ -90,8 +90,8 @@ void validate(const LargeMotionModel& large_motion, const Model& model);
 
 namespace trammel::solver {
 
-/// Adds a revolute joint between two coincident nodes: equal translations, in small or large
-/// motion.
+/// Adds a revolute joint between two coincident nodes: constraints of equal translations, which are
+/// valid in small and large motion.
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes);
 
 /// Adds a sliding joint for small motion to a linear model. The displacement of the node relative
@@ -122,8 +122,9 @@ struct MemberElement {
   [[nodiscard]] Vector2d position(std::size_t node) const;
 };
 
-/// Numbering of the coordinates. Free coordinates come first, then those held by supports. An index
-/// >= `free` therefore means zero displacement. Joined parts share coordinates if possible:
+/// Numbering of the coordinates. Free coordinates come first, then coordinates held by supports. A
+/// coordinate with an index >= `free` is therefore always zero. Joined parts share coordinates if
+/// possible:
 ///
 /// - The nodes of a revolute joint share the translations.
 /// - A welded member end and its node share the rotation.
@@ -135,7 +136,7 @@ struct Layout {
   std::vector<std::array<Index, 3>> node;  ///< x, y, rotation of each node (-1: no rotation)
   std::vector<std::array<Index, 2>> end_rotation;  ///< rotations of the ends of each member
   std::vector<MemberElement> elements;
-  std::vector<Index> first_element;  ///< first element of each member, and the number of elements
+  std::vector<Index> first_element;  ///< first element of each member, then the number of elements
   std::vector<std::array<Index, 2>>
       mass_center;             ///< x, y of the center of each point mass (or of its node)
   std::vector<int> direction;  ///< direction of each coordinate: 0: x, 1: y, 2: rotation

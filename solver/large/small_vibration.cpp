@@ -25,7 +25,7 @@ constexpr double kRoundoffShare = 1e-7;
 /// called soft. The computed K^-1 then has few correct digits of the higher modes.
 constexpr double kSoftShare = 1e-10;
 /// Largest ratio of two estimates of the lowest w^2 above the soft modes: from K^-1 and from a
-/// shifted K. A larger ratio shows that all stiffer motions than the soft modes are massless.
+/// shifted K. A larger ratio shows that all motions stiffer than the soft modes are massless.
 constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
@@ -50,7 +50,7 @@ class ShiftedStiffness {
     system.add_tangent(state, coefficients, plain_);
   }
 
-  /// Returns false if the matrix is singular.
+  /// Returns false if the shifted stiffness matrix is singular.
   [[nodiscard]] bool is_nonsingular() const { return exists_; }
 
   /// Solves K (x, y) = (f, 0) for motions x and constraint forces y by iterative refinement.
@@ -67,7 +67,7 @@ class ShiftedStiffness {
       factored_.solve(correction);
       x += correction.cast<long double>();
       // The refinement measures corrections of motions relative to the motions. Corrections of
-      // constraint forces are relative to all forces, including those on the coordinates.
+      // constraint forces are relative to all forces, including the forces on the coordinates.
       const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
         return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
       };
@@ -85,13 +85,13 @@ class ShiftedStiffness {
     return x;
   }
 
-  /// Returns true if the last solution is accurate to six digits.
+  /// Returns true if the last result of `solve` is accurate to six digits.
   [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
 
   /// Returns the backward error of K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a
-  /// mode, row by row. Each coordinate counts with at least `kLeastFraction` of the largest motion,
-  /// as in row_balance.h. The terms of each row are at least 1e-9 of the largest terms of rows of
-  /// the same type (forces or constraints).
+  /// mode, row by row. In the sum of magnitudes of a row, each coordinate is at least
+  /// `kLeastFraction` of the largest motion. The terms of each row are at least 1e-9 of the largest
+  /// terms of rows of the same type (forces or constraints).
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
     const VectorXd& scale = system_.scale();
@@ -114,7 +114,7 @@ class ShiftedStiffness {
     return row_backward_error(residual.cast<double>(), terms);
   }
 
-  /// Returns the energy over its round-off error (`KktMatrix::energy_over_roundoff`) for a mode.
+  /// Returns the energy of a mode divided by the round-off error of this energy (see `KktMatrix`).
   [[nodiscard]] double energy_over_roundoff(const Extended& mode) const {
     return plain_.energy_over_roundoff(mode);
   }
@@ -132,7 +132,7 @@ MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
   const auto pairs = symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
-  const double rounding = static_cast<double>(M.rows()) * kEps;  // relative to a unit diagonal
+  const double rounding = static_cast<double>(M.rows()) * kEps;  // for a matrix with unit diagonal
   const Index rank = (pairs.value.array() > rounding).count();
   return size.asDiagonal() * pairs.vector.rightCols(rank) *
          pairs.value.tail(rank).cwiseSqrt().asDiagonal();
@@ -167,7 +167,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   if (!pairs.converged) return found;
   // Motions that the constraints prevent have eigenvalues of round-off size and no mode.
   const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
-  std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
+  std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 and column of each mode
   for (Index j = 0; j < pairs.value.size(); ++j)
     if (std::abs(pairs.value[j]) > held) order.emplace_back(shift + 1.0 / pairs.value[j], j);
   std::ranges::stable_sort(order, {}, [](const auto& mode) { return std::abs(mode.first); });
@@ -189,12 +189,12 @@ double lowest_above_soft(const Spectrum& modes) {
 }
 
 /// Returns w^2 of the lowest mode that is not a free motion, for a K that is singular to working
-/// precision. All modes from such a K^-1 contain parts of the free motions. K is therefore shifted
-/// by multiples of M. The shifts start above all modes and decrease to the lowest mode that is not
-/// free.
+/// precision. All modes that follow from the inverse of such a K contain components of the free
+/// motions. K is therefore shifted by multiples of M. The shifts start above all modes and decrease
+/// to the lowest mode that is not free.
 double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
                          const MatrixXd& L, const Spectrum& mixed) {
-  constexpr double kNear = 1e-4;  // lowest w^2 over the shift that has more than ten digits
+  constexpr double kNear = 1e-4;  // least w^2 / shift for ten correct digits of w^2
   double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
   for (int pass = 0; pass < 8 && shift > 0; ++pass) {
     const ShiftedStiffness K(system, state, -shift);
@@ -212,17 +212,18 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
 
 /// Improves a real mode and its w^2 by inverse iteration with K - t M, where the shift t is next to
 /// w^2. The matrix from which all modes follow has round-off errors relative to its lowest mode.
-/// They contaminate a higher mode in proportion to the ratio of its w^2 to that of the lowest mode.
-/// With the shift, the requested mode dominates.
+/// These errors contaminate a higher mode in proportion to the ratio of its w^2 to the w^2 of the
+/// lowest mode. With the shift, the requested mode dominates.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
   const Index n = system.coordinate_count();
-  // Increase the distance between shift and w^2 if round-off errors of the factors exceed it.
+  // Increase the distance between shift and w^2 if round-off errors of the factors exceed this
+  // distance.
   for (const double aside : {kAside, 0.03, 0.3}) {
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
     if (!K.is_nonsingular()) continue;
-    const int passes = aside == kAside ? 4 : 20;  // each pass reduces other modes by `aside`
+    const int passes = aside == kAside ? 4 : 20;  // each pass scales other modes by `aside`
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
       const Extended next = K.solve(inertia);
@@ -271,7 +272,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
                                : Spectrum();
     // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
     // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,
-    // all stiffer motions than the soft modes are massless.
+    // all motions stiffer than the soft modes are massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;

@@ -10,20 +10,20 @@ namespace trammel::solver::large_motion {
 struct SmallVibration {
   Outcome outcome;
   VectorXd frequency;    ///< f, ascending [Hz]; 0 for monotonic growth or decay
-  VectorXd growth_rate;  ///< g of the growing mode of each pair [1/s]; 0 for pure vibration
-  VectorXd roundoff;     ///< relative round-off error of each frequency caused by stiff parts
+  VectorXd growth_rate;  ///< growth rate g of each mode, >= 0 [1/s]; 0 for pure vibration
+  VectorXd roundoff;     ///< relative round-off error of each frequency due to stiff members
   Evidence evidence;
 };
 
-/// Largest number of coordinates for `small_vibration`. Its matrix is dense, and the cost grows
-/// with the third power of the number.
+/// Largest number of coordinates for `small_vibration`. The matrix of `small_vibration` is dense,
+/// and the computing time grows with the third power of the number of coordinates.
 inline constexpr Index kMaxVibrationCoordinates = 400;
 
 /// Computes the `count` modes with the lowest |s| of s^2 M x + K x + G^T y = 0, G x = C y. K is the
-/// tangent stiffness of the state. The modes follow from the eigenvalues of K^-1 M on the
-/// constraints. Follower loads make K nonsymmetric. If two frequencies then meet, the motion
-/// flutters, which statics cannot show (V. V. Bolotin, Nonconservative Problems of the Theory of
-/// Elastic Stability, 1963).
+/// tangent stiffness of the state. The modes follow from the eigenvalues of K^-1 M for motions that
+/// satisfy the constraints. Follower loads make K nonsymmetric. If two frequencies then coincide,
+/// the structure flutters, which statics cannot show (V. V. Bolotin, Nonconservative Problems of
+/// the Theory of Elastic Stability, 1963).
 /// @throws ModelError  if there are more than kMaxVibrationCoordinates coordinates.
 [[nodiscard]] SmallVibration small_vibration(const GeometricallyExactSystem& system,
                                              const State& state, Index count);

@@ -113,8 +113,9 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
     const Beam::Coordinates f = beam.applied_forces();
     for (int a = 0; a <= kLast; ++a)
       body.add(beam.position(a), beam.node_force(f, a), beam.moment(f, a));
-    // Bending moments follow from differences of nodal rotations. Their round-off error is relative
-    // to the rotation of the member, which the sum of magnitudes therefore includes.
+    // Bending moments follow from differences of nodal rotations. The round-off error of these
+    // moments is relative to the rotation of the member, which the sum of magnitudes therefore
+    // includes.
     body.moment_terms +=
         (beam.element.tangent(beam.q, 1, 0).cwiseAbs() * beam.q.cwiseAbs()).maxCoeff();
   }
@@ -235,7 +236,7 @@ Index redundant_constraint_count(const GeometricallyExactSystem& system, const S
       matrix.constraint_gradient(system.scale(), system.row_units()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
-    const double size = columns.col(r).norm();  // 0 if supports hold both ends
+    const double size = columns.col(r).norm();  // 0 if supports hold all coordinates
     if (system.row_compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
   }
   columns = columns * factor.asDiagonal();

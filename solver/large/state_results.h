@@ -25,16 +25,16 @@ namespace trammel::solver::large_motion {
 [[nodiscard]] StaticSolution static_solution(const GeometricallyExactSystem& system,
                                              const State& state);
 
-/// Residual of the equilibrium of each member as a free body in the deformed position. Its forces
-/// are the section forces at both ends, loads, weight and inertia.
+/// Residual of the equilibrium of each member as a free body in the deformed position. The forces
+/// on a member are the section forces at both ends, loads, weight and inertia forces.
 class MemberBalance {
  public:
   /// Adds the residuals of the equilibrium of all members in a state that satisfies the equation of
   /// motion.
   void add_state(const GeometricallyExactSystem& system, const State& state);
   /// Returns the largest resultant force, or moment about the first end, of all members and states.
-  /// It is relative to the largest sum of the magnitudes of these forces or moments. Members whose
-  /// forces are only round-off errors therefore do not contribute.
+  /// The result is relative to the largest sum of the magnitudes of these forces or moments.
+  /// Members whose forces are only round-off errors therefore do not contribute.
   [[nodiscard]] double residual() const;
 
  private:
@@ -53,7 +53,8 @@ class MemberBalance {
                                                      const VectorXd& q, Index member);
 
 /// Largest number of rigid constraints for which redundant constraints are counted. With more
-/// constraints, the factorization that yields their rank would take longer than statics.
+/// constraints, the factorization that yields the rank of the constraints would require more time
+/// than statics.
 inline constexpr Index kMaxCountedConstraints = 400;
 
 /// Returns the number of redundant rigid constraints in a state. Equilibrium leaves the same number

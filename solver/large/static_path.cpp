@@ -18,8 +18,8 @@ namespace {
 /// Least cosine of the angle between the tangents at two adjacent points of a path.
 constexpr double kTurn = 0.95;
 
-/// Relative change of the state below which the last factorization is sufficient to count unstable
-/// directions.
+/// Relative change of the state below which the last factorization of the tangent matrix is used to
+/// count unstable directions.
 constexpr double kSame = 1e-9;
 
 /// Trial point in the search for a critical point between two points of a path: distance from the
@@ -66,11 +66,11 @@ class IllinoisBracket {
   bool was_updated_ = false, was_left_ = false;
 };
 
-/// Returns the ratio of the length of the next step along the path to that of the last step. It
-/// depends on the ratio of the second to the first Newton correction, which grows with the square
-/// of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). The target of
-/// this second ratio is a tenth. Unlike the number of iterations, this ratio is continuous, so that
-/// round-off does not change the points of the path.
+/// Returns the length of the next step along the path, divided by the length of the last step. This
+/// factor depends on the ratio of the second to the first Newton correction, which grows with the
+/// square of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). The
+/// target of this ratio is a tenth. Unlike the number of iterations, the ratio is continuous, so
+/// that round-off does not change the points of the path.
 double step_factor(const std::vector<double>& correction) {
   constexpr double kWantedRatio = 0.1;
   if (correction.size() < 2) return 2;
@@ -105,7 +105,7 @@ std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
 
 /// Limit point or bifurcation between two points of a path.
 struct CriticalPoint {
-  bool load_reversed = false;  ///< true: limit point
+  bool load_reversed = false;  ///< true: limit point; false: bifurcation
   std::optional<double> load;  ///< load factor; empty if it was not found
   PathPoint point;             ///< point of the path near the critical point
 };
@@ -168,8 +168,8 @@ class PathFollower {
   }
 
   /// Returns the displacement from the start to the target load by linear theory, divided by the
-  /// target load factor. It is used for drives that start from rest, because their initial response
-  /// is zero.
+  /// target load factor. This value is used if drives start from rest, because the response at the
+  /// start of the path is then zero.
   double mean_response(const State& start) {
     State end = start;
     system_.set_load_factor(end, options_.target);
@@ -255,7 +255,8 @@ class PathFollower {
     return switched || !done;
   }
 
-  /// Returns the critical point between the last point of the path and `to`, if any.
+  /// Returns the critical point between the last point of the path and `to`, or an empty value if
+  /// there is none.
   std::optional<CriticalPoint> find_critical_point(const PathPoint& to, const VectorXd& ahead) {
     CriticalPoint critical{load_of(ahead) * load_of(direction_) < 0, {}, to};
     const Index unstable = last().unstable_directions;
@@ -265,9 +266,9 @@ class PathFollower {
     return critical;
   }
 
-  /// Returns true if the critical point lies between the last point and a point with the load
-  /// `end`. A limit point has a load beyond both loads. A bifurcation has a load between both
-  /// loads.
+  /// Returns true if the critical point lies between the last point of the path and a point with
+  /// the load `end`. The load of a limit point is beyond the loads of both points. The load of a
+  /// bifurcation is between the loads of both points.
   bool lies_on_path(const CriticalPoint& critical, double end) const {
     if (last().unstable_directions < 0) return true;
     if (!critical.load) return false;
@@ -346,18 +347,18 @@ class PathFollower {
   }
 
   /// Returns the smallest useful distance from a bifurcation, relative to the length of the path.
-  /// At a distance w, round-off moves states sideways by epsilon/w of the model size, which must be
-  /// small compared with w.
+  /// At a distance w, round-off displaces states normal to the path by epsilon/w of the model size.
+  /// This displacement must be small compared with w.
   double nearest_to_bifurcation() const {
     const double size = std::max(std::sqrt(displacement_weight_), 1.0);
     return 8 * std::sqrt(std::numeric_limits<double>::epsilon() * size);
   }
 
-  /// Locates a critical point along the arc between states on both sides of it. dload/darc vanishes
-  /// at a limit point, and the smallest eigenvalue vanishes at a bifurcation. `critical` is set to
-  /// a state near the critical point.
-  /// @returns the load, or an empty value if the point is not found, the path has a gap, or there
-  ///   is another critical point.
+  /// Locates a critical point of the path between its last point and the point `to`. At a limit
+  /// point, the derivative of the load along the path vanishes. At a bifurcation, the smallest
+  /// eigenvalue vanishes. `critical` is set to a state near the critical point.
+  /// @returns the load factor, or an empty value if the critical point is not found, the path has a
+  ///   gap, or there is another critical point.
   std::optional<double> locate(bool load_reversed, const PathPoint& to, PathPoint& critical) {
     const VectorXd& d = direction_;
     const State& from = last().state;
@@ -381,7 +382,7 @@ class PathFollower {
     IllinoisBracket bracket(std::move(first), trial_at(interval, to.state));
     const double nearest =
         nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
-    double f = 0;  // indicator of the last trial
+    double f = 0;  // indicator f of the last trial point
     const auto solve_at = [&](double arc, PathPoint& trial) {
       if (!corrector(d, arc, trial) || !equilibrium_.factorize_tangent(trial.state)) return false;
       Trial found = trial_at(arc, trial.state);
@@ -413,8 +414,8 @@ class PathFollower {
       if (!solve_beside(root, trial)) return {};
       if (!load) critical = std::move(trial);
     }
-    // States on both sides of a gap do not belong to one path. Their distance normal to the path
-    // exceeds that due to the curvature of the path.
+    // States on both sides of a gap do not belong to one path. The distance between the two states
+    // normal to the path exceeds the distance that the curvature of the path explains.
     const Trial &left = bracket.left(), &right = bracket.right();
     const VectorXd across = chord_between(left.state, right.state);
     const double along = dot(normalized(chord), across);

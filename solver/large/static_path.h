@@ -13,15 +13,15 @@ namespace trammel::solver::large_motion {
 struct StaticPathOptions {
   double target = 1;  ///< load factor at the end of the path
   double first_step =
-      0.1;  ///< first increment of the load factor; later ones follow from Newton's convergence
+      0.1;  ///< first increment of the load factor; the program selects all later increments
   /// Limit of the displacement under the full load by linear theory, relative to the model size
   /// [-]. Below this limit, the load is applied in one step.
   double small_response = 0;
-  int max_points = 2000;       ///< limit of the number of points
-  bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
-  bool keep_points = true;     ///< false: keep only the last point
-  /// true: members or bodies that move freely without driving loads remain in place; false: a model
-  /// with such free motions is singular.
+  int max_points = 2000;       ///< limit of the number of points of the path
+  bool switch_branch = false;  ///< true: leave the first bifurcation along its buckling shape
+  bool keep_points = true;     ///< true: return all points; false: only the last point
+  /// true: members or bodies that can move freely remain at rest if no load drives the free motion;
+  /// false: a model with a free motion is singular.
   bool keep_free_parts = false;
   NewtonOptions newton;
 };
@@ -29,8 +29,8 @@ struct StaticPathOptions {
 /// Equilibrium at one point of a path of equilibria.
 struct PathPoint {
   State state;  ///< state.load is the load factor
-  /// Number of unstable directions, from the negative pivots of the tangent matrix. It is -1 if
-  /// follower loads prevent this count.
+  /// Number of unstable directions, from the negative pivots of the tangent matrix. The number is
+  /// -1 if follower loads make the tangent matrix nonsymmetric.
   Index unstable_directions = 0;
   NewtonResult newton;
 };
@@ -40,7 +40,7 @@ struct PathEvent {
   enum class Kind { limit_point, bifurcation };
   Kind kind = Kind::limit_point;
   double load = 0;  ///< load factor
-  VectorXd shape;   ///< critical mode at this point, over the coordinates
+  VectorXd shape;   ///< critical mode shape, one value per free coordinate
 };
 
 /// Path of equilibria from load factor 0 to the target.

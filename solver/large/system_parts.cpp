@@ -32,7 +32,7 @@ class MergedSets {
   std::vector<Index> parent_;
 };
 
-/// Numbers the coordinates and builds the elements. Every node first gets three coordinates.
+/// Numbers the coordinates and builds the elements. At first, every node has three coordinates.
 /// Rotations on which no element or moment acts are removed after the elements are added.
 class SystemBuilder {
  public:

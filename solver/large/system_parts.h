@@ -38,7 +38,7 @@ struct SystemParts {
   }
 };
 
-/// Builds the elements and numbers coordinates and rows.
+/// Builds the elements of a model, and numbers the coordinates and constraint rows.
 /// @throws ModelError  if the model is invalid. Examples: a triangle has no area; a drive moves a
 ///   supported or unconnected coordinate; a constraint refers to a missing part or mixes
 ///   translations and rotations.

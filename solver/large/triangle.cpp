@@ -10,8 +10,8 @@ Triangle2d<Nodes>::Triangle2d(const Model& model, const Triangle& triangle) {
   const double E = plate.material.E, nu = plate.material.nu;
   D_ << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
   D_ *= E / (1 - nu * nu);
-  // The single integration point at the center is exact for polynomials of degree 1, and three
-  // points for degree 2.
+  // With three nodes, one integration point at the center is exact for polynomials of degree 1.
+  // With six nodes, three integration points are exact for degree 2.
   const auto count = static_cast<double>(points_.size());
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Vector3d area_coordinates = Vector3d::Constant(Nodes == 3 ? 1.0 / 3 : 1.0 / 6);

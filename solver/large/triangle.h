@@ -9,7 +9,7 @@
 namespace trammel::solver::large_motion {
 
 /// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
-/// 6 nodes (mid-sides 01, 12, 20):
+/// 6 nodes (mid-side nodes on the sides 01, 12, 20):
 ///
 ///   \f[ E = (H + H^T + H^T H)/2, \quad H = du/dX, \quad S = D E, \quad
 ///       U = t A \sum w\, E : S/2. \f]
@@ -35,7 +35,8 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   /// K_m is K without the geometric stiffness. `damping` includes the factor tau.
   [[nodiscard]] Square tangent(const Coordinates& q, double stiffness_factor, double damping) const;
   /// Returns forces f with f . (q1 - q0) = energy(q1) - energy(q0) if tau = 0 (J. C. Simo, N.
-  /// Tarnow, ZAMP 43, 1992). `damping_over_step` is tau over the step.
+  /// Tarnow, ZAMP 43, 1992). `damping_over_step` is the damping coefficient tau divided by the time
+  /// step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                                      double damping_over_step) const;
   [[nodiscard]] const Square& mass() const { return mass_; }

@@ -25,12 +25,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
     1e-11;  // relative change of an eigenvalue in one inverse iteration
-// Relative gap above which neighboring eigenvalues are distinct, not copies of a repeated
-// eigenvalue.
+// Relative gap above which adjacent eigenvalues count as distinct instead of as copies of a
+// repeated eigenvalue.
 constexpr double kClusterGap = 1e-3;
 
-// K and B are symmetric. Products use their transpose, because Eigen then sums each row in
-// registers.
+// Products with the symmetric matrices K and B use the transposed matrix, because Eigen then sums
+// each row in registers.
 
 /// Solves A x = lambda B x in coordinates scaled to a unit diagonal of B.
 SymmetricEigenpairs scaled_eigenpairs(const MatrixXd& A, const MatrixXd& B) {
@@ -80,8 +80,8 @@ class Solver {
     }
     if (some_are_hidden())
       return finish("only " + std::to_string(checked_) +
-                    " eigenvalues were found: the others are too large, relative to the first, for "
-                    "double precision");
+                    " eigenvalues were found: the remaining eigenvalues are too large relative "
+                    "to the first eigenvalue for double precision");
     iterate_beside_each();
     return finish({});
   }
@@ -100,14 +100,14 @@ class Solver {
     return BX;
   }
 
-  /// Returns (K - s B) x with the accurate products K x of the pencil.
+  /// Returns (K - s B) x, where K x is computed by the accurate operator `K_times` of the pencil.
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
     return y;
   }
 
-  /// Returns (K - s B) x with the assembled K.
+  /// Returns (K - s B) x, where K x is computed with the assembled matrix K.
   [[nodiscard]] VectorXd assembled(const VectorXd& x) const {
     VectorXd y = pencil_.K->transpose() * x;
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
@@ -115,12 +115,12 @@ class Solver {
   }
 
   /// Returns about `count` further eigenvectors with the largest mu = 1 / (lambda - s) > 0, or all
-  /// remaining ones. It returns fewer if Lanczos' method fails.
+  /// remaining eigenvectors. If Lanczos' method fails, fewer eigenvectors are returned.
   MatrixXd next_block(Index count) {
     if (!dense_) return lanczos(count);
     if (all_.rows() == 0) {
       all_ = dense_vectors();
-      taken_ = std::min(null_.cols(), all_.cols());  // the null vectors have the largest mu
+      taken_ = std::min(null_.cols(), all_.cols());  // skip null vectors, which have the largest mu
     }
     const Index kept = std::min(count, all_.cols() - taken_);
     taken_ += kept;
@@ -137,13 +137,14 @@ class Solver {
     return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
   }
 
-  /// Returns the eigenvectors x = F^-T y that belong to eigenvectors y of F^-1 B F^-T, with F F^T =
-  /// K - s B, by Lanczos' method. They are orthogonal to the known eigenvectors.
+  /// Computes up to `count` eigenvectors x = F^-T y of the pencil by Lanczos' method, where y are
+  /// eigenvectors of F^-1 B F^-T, and F F^T = K - s B. In the inner product of K - s B, the vectors
+  /// x are orthogonal to the known eigenvectors.
   [[nodiscard]] MatrixXd lanczos(Index count) const {
     const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
     const Index wanted = std::min(count, dimension - 1);
     if (wanted < 1 || (pencil_.B && pencil_.B->norm() == 0)) return MatrixXd(size_, 0);
-    MatrixXd known(size_, known_count);  // y = F^T x = F^-1 (K - s B) x
+    MatrixXd known(size_, known_count);  // known eigenvectors x, as y = F^T x = F^-1 (K - s B) x
     known << null_, X_;
     for (Index j = 0; j < known_count; ++j) {
       known.col(j) = factorization_.apply_inverse_factor(assembled(known.col(j)));
@@ -182,16 +183,17 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
-  /// Improves eigenvectors of indefinite pencils and of eigenvalues far above the first by inverse
-  /// iteration with a shift t just below their eigenvalue. The round-off error of (K - s B)^-1 B is
-  /// relative to its largest |mu|. This error contaminates the eigenvector of a smaller mu in
-  /// proportion to the ratio of both values. With the shift t, the mu of the requested vector is
-  /// the largest. Deflation is no alternative, because vectors of negative mu are unknown.
+  /// Improves eigenvectors by inverse iteration with a shift t just below their eigenvalue. The
+  /// function does this for indefinite pencils, and for eigenvalues far above the first eigenvalue.
+  /// The round-off error of (K - s B)^-1 B is proportional to the largest eigenvalue |mu| of this
+  /// matrix. The error contaminates the eigenvector of a smaller mu in proportion to the ratio of
+  /// the two values mu. With the shift t, the mu of the requested eigenvector is the largest.
+  /// Deflation is no alternative, because eigenvectors with negative mu are unknown.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
-    // Relative change of the eigenvector below which the iteration ends. Each pass reduces the
-    // components along other eigenvectors by the factor kAside.
+    // Relative change of the eigenvector below which the inverse iteration ends. Each pass reduces
+    // the components along other eigenvectors by the factor kAside.
     constexpr double kEnough = 1e-9;
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0 || !pencil_.B) return;
@@ -221,13 +223,14 @@ class Solver {
     if (moved) values();
   }
 
-  /// Iterates until the requested eigenvalues converge. The next iteration would change an
-  /// eigenvalue by its last change, times the square of its ratio to the last eigenvalue of the
-  /// block. This product estimates the remaining error.
+  /// Repeats the inverse iteration until the requested eigenvalues converge. The next iteration
+  /// would change an eigenvalue by about its last change times r^2. r is the ratio of the
+  /// eigenvalue to the largest eigenvalue of the block. This product, last change times r^2, is the
+  /// estimate of the remaining error.
   void iterate_to_convergence() {
     constexpr int kSteps = 4;
     values();
-    if (X_.cols() == 0) return;  // only rigid motions and massless coordinates
+    if (X_.cols() == 0) return;  // the model has only rigid modes and massless coordinates
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = pairs_.value;
       inverse_iteration();
@@ -242,9 +245,9 @@ class Solver {
     }
   }
 
-  /// Performs one inverse iteration of all vectors of the block with refined solutions, followed by
-  /// a Rayleigh-Ritz step with accurate products K x. The form (K - s B)^-1 B keeps all digits of
-  /// the lowest eigenvalues.
+  /// Performs one inverse iteration of all vectors of the block with iteratively refined solutions.
+  /// A Rayleigh-Ritz step with accurate products K x follows. Because the iteration matrix is (K -
+  /// s B)^-1 B, all digits of the lowest eigenvalues are retained.
   void inverse_iteration() {
     const MatrixXd BX = times_B(X_);
     MatrixXd Y(size_, X_.cols());
@@ -266,9 +269,9 @@ class Solver {
     values();
   }
 
-  /// Orthonormalizes column j against the preceding columns in K - s B. A second pass follows if
-  /// the first removed most of the vector, because the remainder is then dominated by round-off
-  /// (Daniel, Gragg, Kaufman and Stewart 1976).
+  /// Orthonormalizes column j of Y against the preceding columns in the inner product of K - s B. A
+  /// second pass follows if the first pass removed most of the column. The remainder is then
+  /// dominated by round-off (Daniel, Gragg, Kaufman and Stewart 1976).
   void orthogonalise(MatrixXd& Y, Index j) const {
     for (const bool first : {true, false}) {
       const VectorXd image = assembled(Y.col(j));
@@ -281,7 +284,8 @@ class Solver {
     }
   }
 
-  /// Computes the Rayleigh quotients and sorts them, with their vectors, in ascending order.
+  /// Computes the Rayleigh quotients (eigenvalue estimates) of the block vectors. Quotients and
+  /// vectors are sorted in ascending order of the quotients.
   void values() {
     if (pencil_.indefinite) keep_positive();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
@@ -296,8 +300,9 @@ class Solver {
     X_ = X_(Eigen::all, order).eval();
   }
 
-  /// Removes vectors whose x^T B x is negative, or zero up to round-off. If no positive eigenvalues
-  /// remain, the null space of B contributes vectors that converge to negative eigenvalues.
+  /// Removes block vectors x for which x^T B x is negative, or zero up to round-off. If the block
+  /// has more vectors than positive eigenvalues exist, such vectors from the null space of B
+  /// converge to negative eigenvalues.
   void keep_positive() {
     const MatrixXd BX = pencil_.B->transpose() * X_;
     const MatrixXd terms = pencil_.B->cwiseAbs().transpose() * X_.cwiseAbs();
@@ -313,8 +318,9 @@ class Solver {
     X_.conservativeResize(Eigen::NoChange, kept);
   }
 
-  /// Returns the largest relative change of the eigenvalues caused by rounding the assembled K. A
-  /// count of negative pivots cannot resolve smaller differences.
+  /// Returns the largest relative change of the eigenvalues caused by round-off errors of the
+  /// assembled matrix K. A count of negative pivots cannot resolve smaller relative differences of
+  /// eigenvalues.
   [[nodiscard]] double rounding_of_values() const {
     if (X_.cols() == 0) return 0;
     const MatrixXd KX = pencil_.K->transpose() * X_;
@@ -322,8 +328,8 @@ class Solver {
     return (value - pairs_.value).cwiseQuotient(pairs_.value).cwiseAbs().maxCoeff();
   }
 
-  /// Counts the eigenvalues below a shift and stores the count in `counted_`. Returns false if the
-  /// count is unreliable.
+  /// Counts the eigenvalues below the shift t and stores the count in `counted_`. Returns false if
+  /// the count is unreliable.
   bool count_below(double t) {
     if (pencil_.count_below) {
       const std::optional<Index> count = pencil_.count_below(t);
@@ -335,8 +341,9 @@ class Solver {
     return factorization_.is_reliable();
   }
 
-  /// Returns the number of eigenvalues below a shift between two clusters, from negative pivots.
-  /// `checked_` is the number of found eigenvalues below this shift.
+  /// Returns the number of eigenvalues below a shift between two clusters of eigenvalues, from a
+  /// count of negative pivots. Sets `checked_` to the number of computed eigenvalues below this
+  /// shift.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -344,7 +351,7 @@ class Solver {
     const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
     double& shift = pairs_.check_shift;
-    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot is near zero
+    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // tried until no pivot is near zero
       if (p == 0) {
         shift = std::abs(pencil_.shift) * fraction;
       } else {
@@ -359,16 +366,17 @@ class Solver {
     return counted_;
   }
 
-  /// Returns true if fewer pairs were found than requested, although B has more positive
-  /// eigenvalues. The missing eigenvalues are then so far from the first that the round-off error
-  /// of the first hides them.
+  /// Returns true if fewer eigenpairs were found than requested, although B has more positive
+  /// eigenvalues than pairs were found. The missing eigenvalues of the pencil are so much larger
+  /// than the first eigenvalue that round-off errors hide them.
   [[nodiscard]] bool some_are_hidden() {
-    constexpr double kNoMass = 1e-12;  // relative to B scaled to a unit diagonal
+    constexpr double kNoMass = 1e-12;  // least relevant eigenvalue of B with unit diagonal
     if (X_.cols() >= count_ || pencil_.indefinite || !pencil_.B) return false;
     const VectorXd diagonal = pencil_.B->diagonal();
     SparseMatrix B = *pencil_.B;
     for (Index i = 0; i < B.rows(); ++i) {
-      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : 1;  // 1: row of zeros
+      // Subtract 1 in a row of zeros, so that its pivot counts as negative.
+      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : 1;
     }
     factorization_.compute(B);
     ++counters_.factorizations;
@@ -376,8 +384,9 @@ class Solver {
            B.rows() - factorization_.negative_pivots() > checked_;
   }
 
-  /// Returns the number of found eigenvalues below a gap between clusters of eigenvalues. It is the
-  /// first clear gap at or after the requested count, or otherwise the widest gap.
+  /// Returns the number of computed eigenvalues below a gap between clusters of eigenvalues. The
+  /// gap is the first clear gap at or after the requested number of eigenvalues. If there is no
+  /// clear gap, the widest gap is used.
   [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -390,7 +399,7 @@ class Solver {
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
 
-  /// Returns a failure without eigenpairs, even if some eigenvalues have converged.
+  /// Returns the outcome not_converged without eigenpairs, even if some eigenvalues have converged.
   Eigenpairs no_eigenpairs() {
     pairs_ = {};
     X_.resize(size_, 0);
@@ -399,7 +408,7 @@ class Solver {
 
   Eigenpairs missing_eigenpairs(Index expected) {
     return finish(std::to_string(checked_) +
-                  " eigenvalues were found, but the signs of the pivots require " +
+                  " eigenvalues were found, but the number of negative pivots is " +
                   std::to_string(expected));
   }
 
@@ -419,17 +428,18 @@ class Solver {
   Counters& counters_;
   Factorization& factorization_;
   MatrixXd X_;
-  MatrixXd all_;     // dense method: all vectors
-  Index taken_ = 0;  // dense method: number of vectors returned so far
+  MatrixXd all_;     // dense method: all eigenvectors, in descending order of mu
+  Index taken_ = 0;  // dense method: number of columns of `all_` used so far
   Index checked_ = 0, counted_ = 0;
-  // True: the last check shift is further from the eigenvalues than their round-off error.
+  // True if the shift of the last Sturm check is further from all eigenvalues than their round-off
+  // error.
   bool clear_of_rounding_ = true;
   bool failed_ = false;  // an eigenvalue iteration or inverse iteration has not converged
   Eigenpairs pairs_;
 };
 
-/// Returns a shift far above all relevant eigenvalues. It is computed in coordinates scaled to a
-/// unit diagonal of A, so that units of length and rotation do not mix.
+/// Returns a shift t far above all relevant eigenvalues of A x = t B x. The shift is computed in
+/// coordinates scaled to a unit diagonal of A, which makes translations and rotations comparable.
 double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
   const VectorXd scale =
       A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
@@ -460,7 +470,7 @@ SparseMatrix shifted_matrix(const SparseMatrix& K, const SparseMatrix& B, double
 
 double eigenvalue_count_error(const VectorXd& found,
                               const std::function<std::optional<Index>(double)>& count_below) {
-  constexpr double kClearGap = 1e-6;  // round-off leaves much smaller gaps between repeated values
+  constexpr double kClearGap = 1e-6;  // relative gap; round-off separates equal eigenvalues by less
   for (Index below = found.size() - 1; below >= 0; --below) {
     const double low = below > 0 ? found[below - 1] : 0;
     const double gap = found[below] - low;
@@ -479,7 +489,7 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
   const auto below = [&](double t) { return factorization.sturm_count(shifted_matrix(A, B, t)); };
-  if (found.size() == 0) {  // the count must be zero for any large shift
+  if (found.size() == 0) {  // the number of eigenvalues below a large shift must be 0
     const std::optional<Index> counted = below(shift_above_all(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
@@ -489,16 +499,16 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
 
 Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   if (X.cols() == 0) return 0;
-  constexpr double kDependent = 1e-3;  // eigenvalue of products; 0 for a duplicate
+  constexpr double kDependent = 1e-3;  // eigenvalue of scaled products; 0 for a duplicate mode
   const MatrixXd products = X.transpose() * (metric * X);
   const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
-  return X.cols() - (pairs.value.array() > kDependent).count();  // all if not finite
+  return X.cols() - (pairs.value.array() > kDependent).count();  // all vectors if a product is NaN
 }
 
 namespace {
 
-/// Operator interface required by Spectra.
+/// Symmetric operator with the interface that the eigenvalue library Spectra requires.
 struct SpectraOperator {
   using Scalar = double;
   const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply;
@@ -513,10 +523,10 @@ struct SpectraOperator {
   }
 };
 
-/// Returns a power of two that scales the operator for Spectra. Spectra accepts a pair as converged
-/// within tolerance * eps^(2/3) in absolute terms. With the scale, this equals a few eps of the
-/// largest eigenvalue, which is its round-off error. Returns 1 if the image of the start vector is
-/// zero or not finite.
+/// Returns a power of two by which the operator is multiplied for Spectra. Spectra accepts an
+/// eigenpair if its absolute error is below tolerance * eps^(2/3). With the factor, this limit is a
+/// few eps times the largest eigenvalue, which is the round-off error of that eigenvalue. Returns 1
+/// if the image of the start vector is zero or not finite.
 double fitting_scale(const SpectraOperator& op, const Eigen::VectorXd& start, double tolerance) {
   const Eigen::VectorXd image = op.apply(start);
   // Estimate of the largest eigenvalue.

@@ -14,7 +14,7 @@
 #include <unsupported/Eigen/IterativeSolvers>
 #include <vector>
 
-// must follow <iostream>
+// MetisSupport uses declarations of <iostream> without including it.
 #include <Eigen/MetisSupport>
 
 namespace trammel::solver {
@@ -23,8 +23,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns the upper triangle of P A P^T. Instead of values, it stores the positions of the entries
-/// among the values of one triangle of A.
+/// Returns a matrix with the sparsity pattern of the upper triangle of P A P^T. The value of each
+/// entry is the index of the corresponding entry in the value array of A. Only the given triangle
+/// of A is used.
 template <unsigned Triangle>
 SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   SparseMatrix places = A;
@@ -34,14 +35,14 @@ SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   return upper;
 }
 
-/// Returns the same matrix with the entries of each column stored in the order of their rows.
+/// Returns A with the entries of each column stored in the order of their rows.
 SparseMatrix sorted(const SparseMatrix& A) {
   const SparseMatrix rows = A.transpose();
   return rows.transpose();
 }
 
-/// Replaces x by L^-T x. The unit diagonal of L is not stored. The loop runs from the last entry to
-/// the first, because memory is prefetched in one direction only.
+/// Replaces x by L^-T x. The unit diagonal of L is not stored. Both loops run from the last entry
+/// to the first, because the processor prefetches memory in one direction only.
 void solve_transposed(const SparseMatrix& L, VectorXd& x) {
   const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
   const double* value = L.valuePtr();
@@ -60,7 +61,7 @@ std::vector<Index> values_of(const SparseMatrix& places) {
 
 Permutation fill_reducing_order(const SparseMatrix& A) {
   constexpr Index kSmall = 5000;
-  Permutation elimination;  // entry k is the coordinate that is eliminated k-th
+  Permutation elimination;  // index k: number of the coordinate that is eliminated k-th
   if (A.rows() == 0) return elimination;
   if (A.rows() < kSmall) {
     Eigen::AMDOrdering<int>()(A, elimination);
@@ -77,13 +78,14 @@ Permutation fill_reducing_order(const SparseMatrix& A) {
 struct SparseLdlt::Factors {
   Ordering ordering;
   Triangle triangle;
-  std::vector<int> columns, rows;  // pattern to which the ordering applies
+  std::vector<int> columns, rows;  // sparsity pattern for which P was computed
   Permutation P;                   // coordinate -> its position in the order of elimination
-  SparseMatrix upper;              // upper triangle in that order
-  // Index of each entry of `upper` among the values of A, and index of the transposed entry of A.
+  SparseMatrix upper;              // upper triangle of P A P^T
+  // Indices in the value array of A for each entry of `upper`: of the entry itself (`from`), and of
+  // the transposed entry (`mirror`).
   std::vector<Index> from, mirror;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)
+  VectorXd pivots, root;  // diagonal of D, and |D|^(1/2) for `apply_inverse_factor`
   mutable VectorXd ordered, solved;
 
   [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
@@ -267,13 +269,13 @@ RefinedSolution refined_solve(const Operator& A, const Factorization& factorizat
                               const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
                               Counters& counters) {
   constexpr int kMaxSteps = 8;
-  constexpr double kSmall = 1e-10;  // a correction whose own error is negligible
+  constexpr double kSmall = 1e-10;  // relative size of a correction with negligible error
   RefinedSolution result{guess, 0};
-  double last = std::numeric_limits<double>::infinity();  // the error of the guess is unknown
+  double last = std::numeric_limits<double>::infinity();  // size of the previous correction
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
     ++counters.solves;
-    // Use the scaling of the matrix, so that meters and radians are comparable.
+    // Divide by the scaling of the matrix, so that meters and radians are comparable.
     const double size = correction.cwiseQuotient(factorization.scaling()).norm();
     const double whole = result.x.cwiseQuotient(factorization.scaling()).norm();
     result.correction = size == 0 ? 0 : size / whole;

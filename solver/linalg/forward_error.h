@@ -9,25 +9,27 @@
 namespace trammel::solver {
 
 /// Factored form of the stiffness, K = A^T diag(C) A with C > 0. A maps the coordinates q to
-/// deformations d = A q, and C contains the rigidities of the deformations. `size` >= |A| contains
-/// the magnitudes of the terms of which A is the sum. eps times `size` is therefore the effect of
-/// rounding on A.
+/// deformations d = A q, and C contains the rigidities of the deformations. Each entry of A is a
+/// sum of terms, and `size` >= |A| contains the sum of the magnitudes of these terms. eps times
+/// `size` therefore estimates the round-off error of A.
 struct FactoredStiffness {
   SparseMatrix A, size;
   Eigen::VectorXd C;
 };
 
-/// Solves K q = f, K = A^T diag(C) A, without forming K. It factors with row exchanges the system
+/// Solves K q = f, K = A^T diag(C) A, without forming K. The following system is factored with row
+/// exchanges:
 ///
 ///   C^-1 s = A q,  A^T s = f.
 ///
-/// This amplifies round-off by the condition number of A. A factorization of K amplifies round-off
-/// by the square of this number.
+/// The solution of this system amplifies round-off by the condition number of A. A factorization of
+/// K would amplify round-off by the square of this number.
 /// Source: Bjorck (1996), Numerical Methods for Least Squares Problems, ch. 2.5 (augmented system).
 class AugmentedSystem {
  public:
   explicit AugmentedSystem(FactoredStiffness factors);
-  /// Returns false if the matrix is singular. Then `solve` must not be called.
+  /// Returns false if the matrix of the augmented system is singular; `solve` must not be called in
+  /// this case.
   [[nodiscard]] bool is_nonsingular() const { return exists_; }
   /// Returns the solution q of K q = f, improved by iterative refinement with the residuals of both
   /// equations of the system.
@@ -35,13 +37,13 @@ class AugmentedSystem {
 
  private:
   FactoredStiffness factors_;
-  Eigen::VectorXd root_, scaling_;  // C^1/2; unit columns of C^1/2 A
+  Eigen::VectorXd root_, scaling_;  // C^1/2, and factors that normalize the columns of C^1/2 A
   SparseLu<double> lu_;
   bool exists_ = false;
 };
 
-/// Estimates the 1-norm of an operator from products with it and its transpose. The estimate is a
-/// lower bound, and nearly always within a factor of 3.
+/// Estimates the 1-norm of an operator B from products with B and with its transpose. The estimate
+/// is a lower bound, and nearly always within a factor of 3.
 /// Source: Hager (1984), Higham (1988).
 /// @param columns  number of columns of B.
 /// @param B  x -> B x.
@@ -50,23 +52,24 @@ class AugmentedSystem {
     Eigen::Index columns, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& B,
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& Bt);
 
-/// Estimates max |R dq| / max |R q| for q with A^T C A q = f. Here dq is the effect of rounding the
-/// rows of A, their products with q, and f:
+/// Estimates the relative round-off error max |R dq| / max |R q| of quantities R q, where q solves
+/// A^T C A q = f. dq is the effect of rounding the rows of A, the products of these rows with q,
+/// and f:
 ///
 ///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|).
 ///
-/// With n terms in a row or column,
+/// For a row or column with n terms and the unit round-off u,
 ///
 ///   c = (n + 1)^1/2 u.
 ///
-/// u = eps / 2, or eps while arithmetic rounds in one direction. Rounding errors are assumed
-/// independent within a sum. Errors of different sums have the signs that give the largest result.
-/// The factors A and C are perturbed instead of K. Near a singularity, this limits the loss of
-/// accuracy to the condition number of A.
+/// u is eps / 2 for rounding to nearest, and eps for directed rounding. Rounding errors within a
+/// sum are assumed to be independent. Errors of different sums are assumed to have the signs that
+/// maximize the result. The factors A and C are perturbed instead of K. Near a singularity, the
+/// estimate is therefore proportional to the condition number of A, not of K.
 /// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; LAPACK's
 /// xPORFS for the maximum over the signs; Higham & Mary (2019), SIAM J. Sci. Comput., for c.
 /// @param factors  factored stiffness: A, the magnitudes of its terms, and C.
-/// @param R  requested quantities as a function of q, in comparable units.
+/// @param R  matrix of the requested quantities R q, in comparable units.
 /// @param q  solution of A^T C A q = f.
 /// @param f  right-hand side.
 /// @param solve  x -> K^-1 x.

@@ -19,7 +19,8 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// Linearization A z = s G z of the gyroscopic eigenvalue problem with z = (x, s x_m) and s = i w:
+/// Linearization A z = s G z of the gyroscopic eigenvalue problem with z = (x, s x_m), s = i w and
+/// the angular frequency w:
 ///
 ///   A = diag(K, M),  G = [-C, -M; M, 0].
 ///
@@ -30,7 +31,7 @@ struct Linearization {
 
 Linearization linearize(const GyroscopicPencil& pencil) {
   // Relative increase of the diagonal of the mass matrix, which makes it positive definite. Without
-  // the increase, it is singular if a point mass has an offset from its node.
+  // the increase, the matrix would be singular if a point mass has an offset from its node.
   constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();
@@ -84,7 +85,7 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
   constexpr Index kDenseSize = 150;
   const Index n = pencil.K.rows();
   const auto& [mass_matrix, A, gyroscopic_matrix] = linearize(pencil);
-  const SparseMatrix &mass = mass_matrix, &G = gyroscopic_matrix;  // lambdas capture them
+  const SparseMatrix &mass = mass_matrix, &G = gyroscopic_matrix;  // names that lambdas can capture
   Factorization factorization;
   factorization.compute(A);
   ++counters.factorizations;
@@ -123,8 +124,9 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
       modes.outcome = {Status::not_converged, "no finite frequency was found"};
     return modes;
   }
-  // Solve the Hermitian problem of i G in the space of the computed vectors (Rayleigh-Ritz). These
-  // have z^T A z = w^2. The eigenvalues are 1 / w for +w and -w.
+  // Solve the Hermitian eigenvalue problem of i G in the space of the computed vectors z
+  // (Rayleigh-Ritz). The vectors are divided by w, because z^T A z = w^2. The eigenvalues are 1 / w
+  // and -1 / w.
   const MatrixXd V = pairs.vector * pairs.value.cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixXd skew = V.transpose() * (G * V);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz(Complex(0, 0.5) * (skew - skew.transpose()));
@@ -160,7 +162,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   const double largest = pairs.value.cwiseAbs().maxCoeff();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Complex mu = pairs.value[j];
-    if (std::abs(mu) < 1e-9 * largest) continue;  // massless coordinate
+    if (std::abs(mu) < 1e-9 * largest) continue;  // infinite eigenvalue of a massless coordinate
     Complex lambda = 1.0 / mu;
     if (std::abs(lambda.real()) < 1e-7 * std::abs(lambda)) lambda.real(0);
     if (std::abs(lambda.imag()) < 1e-7 * std::abs(lambda)) lambda.imag(0);

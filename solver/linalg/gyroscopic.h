@@ -11,8 +11,9 @@
 
 namespace trammel::solver {
 
-/// Gyroscopic problem (K + i w C - w^2 M) x = 0. K is symmetric, C is skew-symmetric, and M is
-/// symmetric and semidefinite.
+/// Gyroscopic eigenvalue problem (K + i w C - w^2 M) x = 0 with the angular frequency w. The
+/// stiffness matrix K is symmetric, the gyroscopic matrix C is skew-symmetric, and the mass matrix
+/// M is symmetric and positive semidefinite.
 struct GyroscopicPencil {
   SparseMatrix K, C, M;
   Operator K_times;  ///< x -> K x, more accurate than the assembled K
@@ -23,29 +24,31 @@ struct GyroscopicPencil {
 /// Vibration modes of a gyroscopic system, x exp((growth_rate + i omega) t).
 struct GyroscopicModes {
   Outcome outcome;
-  Eigen::VectorXd omega;        ///< ascending, > 0 [rad/s]
-  Eigen::VectorXd growth_rate;  ///< [1/s]
-  Eigen::MatrixXcd shape;       ///< coordinate x mode, columns of norm 1
+  Eigen::VectorXd omega;        ///< angular frequency, ascending; 0 for pure growth [rad/s]
+  Eigen::VectorXd growth_rate;  ///< growth rate; 0 for pure vibration [1/s]
+  Eigen::MatrixXcd shape;       ///< one mode shape of norm 1 per column
 };
 
-/// Computes the lowest modes for a positive definite K. With z = (x, i omega x) the problem is
-/// linear:
+/// Computes the `count` lowest vibration modes for a positive definite K. With z = (x, i omega x),
+/// the eigenvalue problem is linear:
 ///
 ///   \f[ A z = i \omega G z, \quad A = \operatorname{diag}(K, M), \quad
 ///       G = \begin{bmatrix} -C & -M \\ M & 0 \end{bmatrix}. \f]
 ///
-/// A z = omega^2 G^T A^-1 G z is a real symmetric pencil with double omega^2. The second block
-/// of z contains only the coordinates that have mass.
+/// A z = omega^2 G^T A^-1 G z is a real symmetric pencil, in which each eigenvalue omega^2 occurs
+/// twice. The second block of z contains only velocities of coordinates that have mass.
 /// Source: Meirovitch (1974).
 [[nodiscard]] GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index count,
                                                       EigenMethod method, Counters& counters);
 
-/// Computes all modes for any K from the dense companion matrix, whose eigenvalues are 1 / lambda
-/// for motions exp(lambda t). Each pair of conjugate eigenvalues is returned once.
+/// Computes the modes x exp(lambda t) for any K from a dense companion matrix, whose eigenvalues
+/// are 1 / lambda. One mode is returned for each pair of conjugate eigenvalues. For real
+/// eigenvalues, only growing modes (lambda > 0) are returned.
 [[nodiscard]] GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil);
 
-/// Returns the number of negative eigenvalues of K + i w C - w^2 M. For a positive definite K this
-/// is the number of frequencies below w. Returns an empty value if the factorization fails.
+/// Returns the number of negative eigenvalues of K + i w C - w^2 M, where w is `omega`. For a
+/// positive definite K, the result is the number of angular frequencies below w. Returns an empty
+/// value if the factorization fails.
 [[nodiscard]] std::optional<Index> gyroscopic_sturm_count(const GyroscopicPencil& pencil,
                                                           double omega);
 

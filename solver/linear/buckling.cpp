@@ -14,21 +14,26 @@
 namespace trammel::solver {
 namespace {
 
-/// Bracket of the lowest buckling factor, from negative pivots. With B = -K_G, K - t B has as many
-/// negative pivots as there are buckling factors in (0, t) (Sylvester).
+/// Bracket of the lowest buckling factor from numbers of negative pivots. With B = -K_G, K - t B
+/// has as many negative pivots as there are buckling factors between 0 and t (Sylvester's law of
+/// inertia).
 struct FirstFactor {
-  bool determined = false;  ///< false: no count is reliable
-  bool exists = false;      ///< false: there is no factor up to `checked`
-  double below = 0;         ///< lower bound of the lowest factor, at least a fifth of it
-  double checked = 0;       ///< largest t for which the negative pivots were counted
+  /// false: the numbers of negative pivots are unreliable.
+  bool determined = false;
+  bool exists = false;  ///< false: there is no factor up to `checked`
+  /// Lower bound of the lowest buckling factor, at least a fifth of this factor.
+  double below = 0;
+  double checked = 0;  ///< largest t for which the negative pivots were counted
 };
 
 FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
                                  Factorization& factorization, Counters& counters) {
-  constexpr int kHalvings = 200;  // 120 orders of magnitude
+  // Limit of the number of reductions of t by the factor 1/4, in total 120 orders of magnitude.
+  constexpr int kHalvings = 200;
   FirstFactor first;
-  // `largest` and `least` are the extreme magnitudes of the entries of B in coordinates that give K
-  // a unit diagonal. `least` excludes entries within the round-off error of the largest entry.
+  // `largest` and `least` are the extreme magnitudes of the entries of B. The entries are scaled
+  // with the factors that give K a unit diagonal. `least` excludes round-off errors of the largest
+  // entry.
   constexpr double kRoundoff = 1e4 * kEps;
   const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
   const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
@@ -38,12 +43,13 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
   // Largest load factor t to check. The nonzero entries of t B then exceed those of K at least a
-  // thousandfold, unless the largest would exceed 1e10. The stiffness of unloaded parts then loses
-  // at most ten digits.
+  // thousandfold, unless the largest entry would exceed 1e10. The stiffness of unloaded parts then
+  // loses at most ten digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
-    for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot is near zero
+    // Reduce t until no pivot is near zero.
+    for (const double share : {1.0, 0.93, 0.87}) {
       counted = share * t;
       ++counters.factorizations;
       if (const auto count = factorization.sturm_count(shifted_matrix(K, B, counted)))
@@ -94,9 +100,9 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K = &system.K;
   pencil.B = &softening;
   pencil.indefinite = true;
-  // The shift is required because members in large tension have small negative factors. Without the
-  // shift, their 1 / factor would be the largest, and its round-off error would hide positive
-  // factors.
+  // The shift is required because members in large tension have negative factors of small
+  // magnitude. Without the shift, 1 / factor of these members would be the largest eigenvalues.
+  // Their round-off errors would hide positive factors.
   pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {

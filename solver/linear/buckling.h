@@ -13,14 +13,17 @@ struct BucklingOptions {
   EigenMethod method = EigenMethod::automatic;
 };
 
-/// Result of linear buckling, K x = -factor K_G x, with the stiffness K and the geometric stiffness
-/// K_G. The factor multiplies all loads. K_G follows from the internal forces of first-order
-/// statics. Only positive factors are computed, because negative factors reverse the loads.
+/// Result of linear buckling, K x = -factor K_G x, with the stiffness matrix K and the geometric
+/// stiffness matrix K_G. The factor multiplies all loads. K_G follows from the internal forces of
+/// first-order statics. Only positive factors are computed, because negative factors reverse the
+/// loads.
 struct BucklingSolution {
-  Outcome outcome;              ///< singular: the model is a mechanism without any load
-  Eigen::VectorXd load_factor;  ///< ascending factors [-]; empty if all exceed `checked_factor`
-  /// Largest load factor [-] that was checked: the negative pivots of K + factor K_G show if the
-  /// model buckles below it. It is 0 if the loads cause no geometric stiffness.
+  /// singular: the unloaded model is a mechanism, or statics does not determine internal forces.
+  Outcome outcome;
+  /// Buckling factors [-], ascending; empty if all positive factors exceed `checked_factor`.
+  Eigen::VectorXd load_factor;
+  /// Largest load factor [-] that was checked. The negative pivots of K + factor K_G show if the
+  /// model buckles below this factor. The value is 0 if the loads cause no geometric stiffness.
   double checked_factor = 0;
   /// Estimated relative round-off error of each buckling factor [-], as defined in `ModalSolution`.
   Eigen::VectorXd roundoff;
@@ -29,7 +32,8 @@ struct BucklingSolution {
   Counters counters;
 };
 
-/// Computes the lowest positive buckling factors. Failures are reported in `outcome`.
+/// Computes the lowest positive buckling factors. Failures are reported in
+/// BucklingSolution::outcome.
 [[nodiscard]] BucklingSolution solve_buckling(const System& system,
                                               const BucklingOptions& options = {});
 

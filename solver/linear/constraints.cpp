@@ -13,8 +13,10 @@ namespace {
 
 using Terms = std::vector<std::pair<Index, double>>;
 
-constexpr double kRedundant = 1e-11;      // a row with a smaller relative remainder is redundant
-constexpr double kPivotThreshold = 0.25;  // relative to the largest entry; bounds the growth of T
+// Limit of the relative size of a row after substitution; smaller rows are redundant.
+constexpr double kRedundant = 1e-11;
+// Smallest allowed ratio of a pivot to the largest entry of its row; bounds the growth of T.
+constexpr double kPivotThreshold = 0.25;
 
 std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
   std::vector<ConstraintRow> rows;
@@ -81,7 +83,7 @@ void add_inextensible_rows(const Model& model, const Mesh& mesh, std::vector<Con
   }
 }
 
-/// Gaussian elimination of sparse rows. Rotations are scaled by the model size.
+/// Gaussian elimination of sparse constraint rows. Rotations are scaled by the model size.
 class Elimination {
  public:
   Elimination(const Coordinates& coordinates, double size)
@@ -89,7 +91,8 @@ class Elimination {
         occurrences_(scale_.size(), 0),
         row_of_(scale_.size(), -1) {
     for (std::size_t u = 0; u < scale_.size(); ++u) {
-      if (coordinates.is_rotation[u]) scale_[u] = 1 / size;  // u = scale * scaled u
+      // Scale factor in u = scale * (scaled u).
+      if (coordinates.is_rotation[u]) scale_[u] = 1 / size;
     }
   }
 
@@ -103,8 +106,8 @@ class Elimination {
     return pivots;
   }
 
-  /// Returns the expression of an eliminated coordinate u as a sum over free coordinates, or null
-  /// if u is free.
+  /// Returns an eliminated coordinate u as a linear combination of other coordinates, or null if u
+  /// is free.
   [[nodiscard]] const Terms* expression(Index u) const {
     const Index row = row_of_[to_size(u)];
     return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;
@@ -117,8 +120,8 @@ class Elimination {
   };
   struct Entry {
     double value = 0;
-    /// Sum of the magnitudes of all added terms. A value that is much smaller than this sum is
-    /// treated as round-off error.
+    /// Sum of the magnitudes of all added terms. A `value` that is much smaller than this sum is
+    /// treated as a round-off error.
     double magnitude = 0;
   };
   using Row = std::map<Index, Entry>;
@@ -151,7 +154,8 @@ class Elimination {
     return row;
   }
 
-  /// Returns the entries of a row divided by `divisor`, except the pivot and round-off errors.
+  /// Returns the entries of a row divided by `divisor`, without the entry of the pivot and without
+  /// round-off errors.
   static Terms significant_terms(const Row& row, Index pivot, double divisor) {
     Terms terms;
     for (const auto& [u, entry] : row) {
@@ -177,8 +181,8 @@ class Elimination {
   }
 
   /// Selects the pivot of a row among its sufficiently large entries. The first criterion is the
-  /// coordinate that occurs in the fewest rows, which causes the least fill-in. The next criteria
-  /// are the larger entry and the later coordinate.
+  /// coordinate that occurs in the fewest rows, which causes the least fill-in. If coordinates are
+  /// equal in this respect, the larger entry and then the later coordinate is selected.
   [[nodiscard]] Index choose_pivot(const Row& row, double largest) const {
     Index best = -1;
     for (const auto& [u, entry] : row) {
@@ -195,12 +199,14 @@ class Elimination {
     return best;
   }
 
-  /// Replaces the eliminated coordinates in all expressions by backward substitution. An expression
-  /// contains only free coordinates and coordinates that were eliminated later.
+  /// Replaces eliminated coordinates in all expressions by backward substitution. Before the
+  /// substitution, an expression contains only free coordinates and coordinates that were
+  /// eliminated later.
   void resolve() {
     for (std::size_t i = expressions_.size(); i-- > 0;)
       expressions_[i].terms = significant_terms(substitute(expressions_[i].terms), -1, 1);
-    for (Expression& expression : expressions_) {  // return to the units of the coordinates
+    // Convert the coefficients to unscaled coordinates.
+    for (Expression& expression : expressions_) {
       const double scale = scale_[to_size(expression.pivot)];
       for (auto& [u, c] : expression.terms) c *= scale / scale_[to_size(u)];
     }
@@ -244,8 +250,9 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
 }
 
 Eigen::VectorXd Constraints::lagrange_multipliers(const Eigen::VectorXd& force) const {
-  // Solve the square system of the pivots of all independent rows except supports. A support row
-  // has a single entry, so that its multiplier is the remaining force.
+  // Solve the square system of the pivot coordinates of all independent rows except supports. A
+  // support row has a single entry, so that its multiplier equals the remaining force on its
+  // coordinate.
   std::vector<Index> kept, supports, number_of_pivot(to_size(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0) continue;

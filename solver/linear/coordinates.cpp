@@ -10,7 +10,7 @@ bool turns_with_node(const MemberEnd& end) {
   return end.fixity != EndFixity::hinged;
 }
 
-/// Returns true for each node of the model that has a rotation, and false for the others.
+/// Returns one value per node of the model: true if the node has a rotation.
 std::vector<bool> nodes_with_rotation(const Model& model) {
   std::vector<bool> turns(model.nodes.size(), false);
   std::vector<bool> joined(model.nodes.size(), false);

@@ -7,32 +7,35 @@
 
 namespace trammel::solver {
 
-/// Element of a member: one of its equal parts, between two nodes of the mesh.
+/// Finite element of a member: one of its parts of equal length, between two nodes of the mesh.
 struct FrameElement {
   Index member = 0;
   std::array<Index, 2> nodes{};
-  /// Indices in u of the end displacements (u1 v1 θ1 u2 v2 θ2) in world axes. The index of a
-  /// rotation is -1 for a bar, which does not bend.
+  /// Indices in u of the end displacements (u1 v1 θ1 u2 v2 θ2) in world axes. The indices of both
+  /// rotations are -1 for a bar, which does not bend.
   std::array<Index, 6> coordinates{};
-  Section section;    ///< cross section at the midpoint of the element
-  double length = 0;  ///< [m]
-  /// Unit vector along the member. All elements of a member share it, so that they are collinear.
+  Section section;  ///< cross section at the midpoint of the element
+  /// Length of the element [m].
+  double length = 0;
+  /// Unit vector along the member. All elements of a member have the same direction and are exactly
+  /// collinear.
   Vector2d direction = Vector2d::UnitX();
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 
-/// Nodes and frame elements of a discretized model. The nodes of the model come first, in their
-/// order. They are followed by the nodes that divide members into elements.
+/// Nodes and frame elements of a discretized model. The first nodes are those of the model, in the
+/// order of the model. The nodes that divide members into elements follow.
 struct Mesh {
-  std::vector<Vector2d> positions;  ///< [m]
+  /// Positions of the nodes [m].
+  std::vector<Vector2d> positions;
   std::vector<FrameElement> frame;  ///< in the order of the members, from first to second node
 };
 
-/// Unconstrained coordinates u. They are the translations of every mesh node, the rotations of
-/// nodes, and the rotations of released member ends.
+/// Numbering of the unconstrained coordinates u: the translations of every mesh node, the rotations
+/// of nodes, and the rotations of released member ends.
 ///
 /// A node that divides a member has a rotation. A node of the model has a rotation if at least one
-/// of these applies:
+/// of these conditions is satisfied:
 ///
 /// - A welded or sprung member end or a rotational spring is connected to the node.
 /// - The node is the reference node of a rigid body.
@@ -56,8 +59,8 @@ struct Coordinates {
     return numbers;
   }
 
-  /// Returns the index of a coordinate in u.
-  /// @throws ModelError  if the node or member end has no such coordinate.
+  /// Returns the index of a node translation, node rotation or member end rotation in u.
+  /// @throws ModelError  if the node or member end does not have the coordinate.
   [[nodiscard]] Index index_of(const Model& model, const Coordinate& coordinate) const;
 };
 

@@ -8,7 +8,7 @@ namespace trammel::solver {
 namespace {
 
 /// Returns the sum of the nodal forces `forces(B, c, u_e)` of all elements. B is the deformation
-/// matrix of an element, c its rigidities, and u_e its entries of u.
+/// matrix of an element, c contains its rigidities, and u_e its nodal displacements.
 template <class Forces>
 Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size());
@@ -48,7 +48,8 @@ Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::Vecto
 Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U) {
   const Index k = U.cols();
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
-  Eigen::MatrixXd d(18, k);  // largest number of deformations of an element
+  // 18 is the largest number of deformations of an element.
+  Eigen::MatrixXd d(18, k);
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     constexpr int m = std::decay_t<decltype(c)>::SizeAtCompileTime;
     for (Index j = 0; j < k; ++j) d.col(j).head<m>() = B * detail::gather(coordinates, U.col(j));

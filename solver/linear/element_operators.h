@@ -14,13 +14,15 @@
 #include "solver/linear/system.h"
 #include "solver/model/numbers.h"
 
-/// Strain energy, internal forces and their round-off errors, computed from the deformations d = B
-/// u of the elements without an assembled stiffness:
+/// Strain energy, internal forces and their round-off errors. They are computed from the
+/// deformations d = B u of the elements, without an assembled stiffness matrix. The stiffness
+/// matrix of an element is
 ///
 ///   k = B^T C B, C diagonal and positive.
 ///
-/// All terms of the energy are squares. Bending therefore keeps its significant digits next to a
-/// stiff axial part. A rigid motion has no strain energy beyond its round-off error.
+/// All terms of the strain energy are squares. The energy of bending is therefore accurate even if
+/// the axial stiffness is much larger. A rigid motion has no strain energy beyond its round-off
+/// error.
 namespace trammel::solver {
 
 namespace detail {
@@ -43,7 +45,7 @@ auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
   return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
 }
 
-/// Adds the values `local` of an element to the entries of u at the coordinates of the element.
+/// Adds the values `local` of an element to the components of u at the coordinates of the element.
 /// Missing coordinates (-1) are skipped.
 template <std::size_t n, class Vector, class Sum>
 void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
@@ -54,7 +56,8 @@ void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&&
 
 }  // namespace detail
 
-/// Calls visit(coordinates, B, c) for every triangle, with the arguments of `for_each_deformation`.
+/// Calls visit(coordinates, B, c) for every triangle. The arguments are those of
+/// `for_each_deformation`.
 template <class Visit>
 void for_each_plate_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
@@ -67,8 +70,8 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
 }
 
 /// Calls visit(coordinates, B, c) for every frame element, triangle and spring. `coordinates` is an
-/// array of n indices into u, or -1 for a missing coordinate. B (m x n) and the diagonal c (m)
-/// define the stiffness B^T diag(c) B of the element.
+/// array of n indices in u, or -1 for missing coordinates. B (m x n) and the rigidities c (m)
+/// define the stiffness matrix B^T diag(c) B of the element.
 template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -96,31 +99,33 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] Eigen::VectorXd internal_force_roundoff(const System& system,
                                                       const Eigen::VectorXd& u);
 
-/// Returns U^T K U for the columns of U (u x k), which is twice the strain energies [J].
+/// Returns U^T K U for the columns of U (u x k) [J]. The diagonal contains twice the strain energy
+/// of each column.
 [[nodiscard]] Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U);
 
 /// Returns a bound of the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T
-/// C |B| |u| over all elements, with the deformations d = B u.
+/// C |B| |u| over all elements. The deformations are d = B u.
 [[nodiscard]] double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
-/// |u|) over all elements. A motion causes no deformation if its u^T K u is below about eps^2 times
-/// this value.
+/// |u|) over all elements. A motion with u^T K u below about eps^2 times this scale causes no
+/// deformation.
 [[nodiscard]] double strain_energy_roundoff_scale(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
 /// @param system  assembled model.
 /// @param triangle  triangle of the model.
 /// @param at  area coordinates of the point [-].
-/// @param u  unconstrained coordinates [m].
+/// @param u  displacements of the unconstrained coordinates [m].
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 
-/// Returns a bound of the change of the stress of a triangle [Pa] caused by rounding u.
+/// Returns a bound of the change of the stress [Pa] of a triangle at a point, caused by rounding u.
 [[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
                                            const Vector3d& at, const Eigen::VectorXd& u);
 
-/// Returns an operator q -> K q on the free coordinates that uses the deformations of the elements.
+/// Returns an operator that computes K q from the deformations of the elements, for free
+/// coordinates q.
 [[nodiscard]] Operator stiffness_operator(const System& system);
 
 /// Returns the mass matrix of a frame element in world axes.
@@ -130,7 +135,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
   return R.transpose() * frame_mass(e.section, member.theory, member.mass, e.length) * R;
 }
 
-/// Calls visit(coordinates, mass matrix) for every triangle.
+/// Calls visit(coordinates, m) for every triangle, where m is the mass matrix of the triangle.
 template <class Visit>
 void for_each_plate_mass(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
@@ -141,7 +146,7 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-// Inertia forces on the unconstrained coordinates u, without an assembled mass matrix.
+// Inertia forces on the unconstrained coordinates u, computed without an assembled mass matrix.
 
 /// Returns the mass matrix of a point mass for the coordinates (x, y, rotation) of its node.
 /// @param mass  mass [kg].
@@ -159,7 +164,7 @@ template <Real T>
 }
 
 /// Calls visit(coordinates, m) for every frame element, triangle, point mass and member end with
-/// inertia. `coordinates` is an array of n indices into u, or -1 for a missing coordinate. The mass
+/// inertia. `coordinates` is an array of n indices in u, or -1 for missing coordinates. The mass
 /// matrix m is n x n, in world axes.
 template <class Visit>
 void for_each_mass_matrix(const System& system, Visit&& visit) {
@@ -185,8 +190,8 @@ void for_each_mass_matrix(const System& system, Visit&& visit) {
 /// Returns the inertia forces M a of accelerations a of the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
-/// Projects symmetric element matrices on the free coordinates with the rows of T, and adds them to
-/// one matrix. Entries at the same position are added in the order in which they were passed to
+/// Sum of symmetric element matrices in the free coordinates. The element matrices are projected
+/// with the rows of T. Values of the same matrix entry are added in the order of the calls of
 /// `add`.
 class Projection {
  public:
@@ -198,7 +203,8 @@ class Projection {
   void add(const std::array<Index, n>& coordinates, const Matrix& k) {
     using Row = RowMajorMatrix::InnerIterator;
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {  // the matrix is symmetric
+      // The matrix is symmetric, so that only its lower triangle is computed.
+      for (std::size_t j = 0; j <= i; ++j) {
         const double value = k(static_cast<Index>(i), static_cast<Index>(j));
         if (coordinates[i] < 0 || coordinates[j] < 0 || value == 0) continue;
         for (Row a(T_, coordinates[i]); a; ++a) {
@@ -217,7 +223,7 @@ class Projection {
     entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
   }
 
-  /// Returns the symmetric sum of matrices. Entries above and below the diagonal are stored.
+  /// Returns the symmetric sum of matrices. Both triangles are stored.
   [[nodiscard]] SparseMatrix build() const {
     SparseMatrix triangle(T_.cols(), T_.cols());
     triangle.setFromTriplets(entries_.begin(), entries_.end());
@@ -229,8 +235,9 @@ class Projection {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// Returns the stiffness of the free coordinates in factored form, K = (B T)^T C (B T), with B and
-/// C of all elements (`for_each_deformation`). Deformations without rigidity are omitted.
+/// Returns the stiffness matrix of the free coordinates in factored form, K = (B T)^T C (B T). B
+/// and C contain the deformation matrices and rigidities of all elements (`for_each_deformation`).
+/// Deformations without rigidity are omitted.
 [[nodiscard]] FactoredStiffness factored_stiffness(const System& system);
 
 }  // namespace trammel::solver

@@ -98,7 +98,7 @@ struct Squares {
     error += weight * error_squared;
     exact += weight * exact_squared;
   }
-  /// Returns the relative error of each quantity; NaN if its exact field is zero.
+  /// Returns the relative error of each quantity, which is not finite if the exact field is zero.
   [[nodiscard]] Values relative() const { return (error / exact).sqrt(); }
 };
 
@@ -123,8 +123,8 @@ double energy_density(const Material& material, const Vector3d& s) {
          material.E;
 }
 
-/// Returns displacements and section forces at the fraction xi of the length of a frame element,
-/// from its end displacements `world` in world axes. V and N are uniform.
+/// Returns displacements and section forces at the fraction xi of the length of a frame element.
+/// `world` contains its end displacements in world axes. V and N are uniform in the element.
 BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
                            double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);

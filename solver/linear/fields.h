@@ -4,8 +4,8 @@
 
 #include "solver/linear/system.h"
 
-/// Loads given as functions of position. Quadrature converts them to consistent nodal forces, the
-/// integral of N^T load. They are added to `load` and `f` of the system.
+/// Loads that are functions of position. Quadrature converts these loads to consistent nodal
+/// forces, the integral of N^T load. The nodal forces are added to `load` and `f` of the system.
 namespace trammel::solver {
 
 /// Function that returns the force per volume [N/m^3] at a position in world axes [m].
@@ -22,23 +22,27 @@ using LineLoad = std::function<Vector3d(const Vector2d&)>;
 /// Adds a body force on all triangles.
 void add_body_force(System& system, const BodyForce& force);
 
-/// Adds a traction on the boundary, which consists of the sides that belong to a single triangle.
+/// Adds a traction on the boundary, which consists of all sides with only one adjacent triangle.
 /// Forces on supported coordinates act on the ground.
-/// @pre The triangles run counterclockwise, as in all models from case files and mesh functions.
+/// @pre The nodes of each triangle are in counterclockwise order, as in all models from case files
+///   and mesh functions.
 void add_edge_traction(System& system, const Traction& traction);
 
-/// Adds a line load on all frame elements that bend.
+/// Adds a line load on all frame elements except bars.
 void add_line_load(System& system, const LineLoad& load);
 
-// Errors of a discrete solution compared with an exact field. They are norms over the
+// Errors of a finite element solution compared with an exact field. The errors are norms over the
 // interpolation of the elements, computed by quadrature. Each error is relative to the same norm of
 // the exact field.
 
 /// Displacement, rotation and stress of a plane-stress field at a point.
 struct MembraneFieldPoint {
-  Vector2d displacement = Vector2d::Zero();  ///< [m]
-  double rotation = 0;                       ///< (dv/dx - du/dy) / 2 [rad]
-  Vector3d stress = Vector3d::Zero();        ///< sxx, syy, sxy [Pa]
+  /// Displacement (u, v) [m].
+  Vector2d displacement = Vector2d::Zero();
+  /// Rotation (dv/dx - du/dy) / 2 [rad].
+  double rotation = 0;
+  /// Stresses sxx, syy, sxy [Pa].
+  Vector3d stress = Vector3d::Zero();
 };
 
 /// Function that returns a plane-stress field at a position in world axes [m].
@@ -57,15 +61,21 @@ struct MembraneErrors {
 [[nodiscard]] MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                                              const MembraneField& exact);
 
-/// Displacements and section forces of a beam at a point, in element axes along the element and to
-/// its left. N = EA u', M = EI θ', and V = -dM/dx without distributed moments.
+/// Displacements and section forces of a beam at a point, in element axes: x along the element and
+/// y to the left of x. N = EA u', M = EI θ', and V = -dM/dx without distributed moments.
 struct BeamFieldPoint {
-  double axial = 0;           ///< [m]
-  double deflection = 0;      ///< [m]
-  double rotation = 0;        ///< [rad]
-  double axial_force = 0;     ///< [N]
-  double shear_force = 0;     ///< [N]
-  double bending_moment = 0;  ///< [N m]
+  /// Displacement along the element [m].
+  double axial = 0;
+  /// Displacement normal to the element [m].
+  double deflection = 0;
+  /// Rotation of the section [rad].
+  double rotation = 0;
+  /// Axial force N [N].
+  double axial_force = 0;
+  /// Shear force V [N].
+  double shear_force = 0;
+  /// Bending moment M [N m].
+  double bending_moment = 0;
 };
 
 /// Function that returns displacements and section forces of a beam at a position in world axes
@@ -73,9 +83,9 @@ struct BeamFieldPoint {
 using BeamField = std::function<BeamFieldPoint(const Vector2d&)>;
 
 /// Relative errors of a frame solution in L2 norms over the frame elements [-]. The energy error
-/// covers bending and, for Timoshenko members, shear. If EA is uniform, `axial_force` is the energy
-/// error of stretching. The section forces follow from the interpolation: M is linear, N and V are
-/// uniform in each element.
+/// includes bending and, for Timoshenko members, shear. If EA is uniform, `axial_force` is also the
+/// energy error of stretching. The section forces follow from the interpolation: M is linear in
+/// each element, and N and V are uniform in each element.
 struct BeamErrors {
   double axial_displacement = 0;
   double deflection = 0;
@@ -84,9 +94,9 @@ struct BeamErrors {
   double shear_force = 0;
   double bending_moment = 0;
   double energy = 0;
-  /// Largest error of a nodal deflection, relative to the largest exact nodal deflection.
+  /// Largest error of a nodal deflection, divided by the largest exact nodal deflection.
   double nodal_deflection = 0;
-  /// Largest error of a nodal rotation, relative to the largest exact nodal rotation.
+  /// Largest error of a nodal rotation, divided by the largest exact nodal rotation.
   double nodal_rotation = 0;
 };
 

@@ -21,11 +21,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 1e-12;  // shift of K, relative to its diagonal
-/// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
-/// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
+// Shift of K in inverse iteration, relative to the diagonal of K.
+constexpr double kShift = 1e-12;
+/// Pivot below which zero-energy modes are searched for. Pivots of a mechanism are round-off
+/// errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-// Strain energy, relative to `strain_energy_roundoff_scale`, below which a motion counts as a
+// Strain energy, relative to `strain_energy_roundoff_scale`, below which a motion is treated as a
 // zero-energy mode. The value is (45 eps)^2.
 constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
@@ -63,7 +64,8 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
       X = qr.householderQ() * MatrixXd::Identity(n, block);
       X = root.cwiseInverse().asDiagonal() * X;
     }
-    // Ritz vectors in ascending order of strain energy; NaN if the iteration did not converge.
+    // Compute Ritz vectors in ascending order of strain energy. They are NaN if the iteration did
+    // not converge.
     X = X * symmetric_eigenpairs(projected_stiffness(system, system.T * X)).vector;
     if (!X.allFinite()) {
       modes.all_found = false;
@@ -73,8 +75,9 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
       const double energy = projected_stiffness(system, u)(0, 0);
-      // The limit of the energy is relative to the larger of the sum of magnitudes and x^T D x = 1.
-      // The second value is required for a motion in which both energy and sum are zero.
+      // The limit of the energy is relative to the larger of two values: the round-off scale and
+      // x^T D x = 1. The second value is required for a motion in which both energy and round-off
+      // scale are zero.
       if (!(energy <= kDeformation * std::max(1.0, strain_energy_roundoff_scale(system, u)))) break;
       ++count;
     }
@@ -86,15 +89,17 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
 
 namespace {
 
-constexpr std::size_t kMaxEntries = 3;  // displacements listed per mode
+// Number of displacements in the description of a mode.
+constexpr std::size_t kMaxEntries = 3;
 constexpr Index kMaxMotions = 6;
-/// Entries of a mode below this fraction of its largest entry are round-off errors. Entries that
-/// differ by less are treated as equal.
+/// Fraction of the largest entry of a mode below which entries are round-off errors. Entries with a
+/// smaller relative difference are treated as equal.
 constexpr double kRoundoff = 1e-6;
 
 using NamedRows = std::vector<std::pair<std::string, Index>>;
 
-/// Returns the names of coordinates, such as "node B along x", with their indices in u.
+/// Returns the names of the coordinates of the model, such as "node B along x", with their indices
+/// in u.
 NamedRows named_rows(const System& system) {
   const Model& model = system.model;
   NamedRows rows;
@@ -116,7 +121,8 @@ NamedRows named_rows(const System& system) {
   return rows;
 }
 
-/// Returns the index of the first entry whose magnitude is the largest up to round-off.
+/// Returns the index of the first entry whose magnitude equals the largest magnitude up to
+/// round-off errors.
 Index first_largest(const VectorXd& x) {
   const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
   Index i = 0;
@@ -124,7 +130,8 @@ Index first_largest(const VectorXd& x) {
   return i;
 }
 
-/// Transforms the columns to reduced echelon form: each column has 1 where the others have 0.
+/// Transforms the columns to reduced echelon form: the pivot row of each column has 1 in this
+/// column and 0 in all others.
 void reduce(MatrixXd& U) {
   for (Index j = 0; j < U.cols(); ++j) {
     const Index pivot = first_largest(U.col(j));

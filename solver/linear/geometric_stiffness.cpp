@@ -16,7 +16,8 @@ namespace {
 using Eigen::VectorXd;
 
 /// Returns the matrix L H of the second-order work of the axial force (see
-/// `frame_chord_rotation_and_bending`). N is the mean axial force, and n its increase.
+/// `frame_chord_rotation_and_bending`). N is the mean axial force, and n the increase of the axial
+/// force along the element.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;
@@ -56,7 +57,8 @@ void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
 }
 
 /// Calls visit(row, triangle, at, weight) for the stress points of plates. `row` is the row of
-/// Prestress::stress, `at` contains area coordinates, and `weight` is the fraction of the area.
+/// Prestress::stress, `at` contains the area coordinates of the point, and `weight` is its fraction
+/// of the triangle area.
 template <class Visit>
 void for_each_stress_point(const Model& model, Visit&& visit) {
   Index row = 0;
@@ -70,16 +72,16 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
   }
 }
 
-/// Returns zero stresses with one row for each stress point of the plates.
+/// Returns a matrix of zero stresses with one row for each stress point of the plates.
 Eigen::MatrixX3d no_stress(const Model& model) {
   Index rows = 0;
   for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
   return Eigen::MatrixX3d::Zero(rows, 3);
 }
 
-/// Returns the second-order work of a slider on a rail with direction t and normal n. The slider is
-/// at d from the node whose rotation θ turns the rail. Small displacements w relative to that node
-/// satisfy
+/// Returns the second-order work of a slider on a rail with direction t and normal n. The vector
+/// from the node that rotates the rail to the slider is d. Let θ be the rotation of the node. Small
+/// displacements w of the slider relative to the node satisfy
 ///
 ///   n . w - θ t . d = 0,
 ///
@@ -87,7 +89,7 @@ Eigen::MatrixX3d no_stress(const Model& model) {
 ///
 ///   n . w - θ t . (d + w) - θ^2 n . d / 2 = 0.
 ///
-/// The work is the force of the rail times this expression.
+/// The work is the force of the rail times the left-hand side of the second equation.
 TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, double force) {
   const auto& node = system.coordinates.node[to_size(rail.node)];
   const auto& slider = system.coordinates.node[to_size(rail.slider)];
@@ -101,7 +103,7 @@ TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, 
   return part;
 }
 
-/// Calls visit(coordinates, B, H) for every term B^T H B of the sum that is K_G.
+/// Calls visit(coordinates, B, H) for every term B^T H B of the matrix K_G.
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
   const Model& model = system.model;
@@ -133,10 +135,10 @@ void add_turning(Index rotation, double moment, std::vector<TurningPart>& parts)
   parts.back().H(0, 0) = moment;
 }
 
-/// Returns the moment F R of a constraint row, or 0 if it does not describe the end of an arm. A
-/// rigid arm moves its end to x_r + R. A rotation θ also shifts the end by -R θ^2 / 2. The force F
-/// on the end of the arm therefore does the work -F R θ^2 / 2. The multiplier of the constraint is
-/// -F.
+/// Returns the moment F R of a constraint row, or 0 if the row does not describe the end of a rigid
+/// arm. R is the x or y component of the arm. A rotation θ shifts the end of the arm by -R θ^2 / 2
+/// to the second order. The force F on the end of the arm therefore does the work -F R θ^2 / 2. The
+/// multiplier of the constraint is -F.
 double arm_moment(const System& system, const ConstraintRow& row, double multiplier) {
   if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) return 0;
   const Index attached = row.terms[0].first;
@@ -225,8 +227,8 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   for (Index i = 0; i < roundoff.axial.size(); ++i) {
     const FrameElement& e = frame[to_size(i)];
     if (!system.model.members[to_size(e.member)].axially_flexible) continue;
-    // The elongation is a difference of displacements. Their round-off errors do not cancel, so
-    // that the sum of their magnitudes scales the error.
+    // The elongation is a difference of displacements. The round-off errors of the displacements do
+    // not cancel, so that the error is proportional to the sum of their magnitudes.
     const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
@@ -248,7 +250,8 @@ Outcome require_determinate_prestress(const System& system) {
   const Constraints& constraints = system.constraints;
   VectorXd selfstress = VectorXd::Zero(std::ssize(constraints.rows));
   VectorXd force = VectorXd::Zero(system.T.rows());
-  double amount = 1;  // a different value for each redundant constraint, so that they do not cancel
+  // Use different forces in redundant constraints, so that their effects do not cancel.
+  double amount = 1;
   for (Index i = 0; i < selfstress.size(); ++i) {
     if (constraints.pivot[to_size(i)] >= 0) continue;
     selfstress[i] = amount;

@@ -18,17 +18,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Returns true if motions other than the zero-energy modes Z move mass. Otherwise the model cannot
-/// vibrate.
+/// Returns true if motions other than the zero-energy modes Z move mass. If only the zero-energy
+/// modes move mass, the model cannot vibrate.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
   for (int pass = 0; pass < 2; ++pass) x -= Z * (Z.transpose() * (M * x));
-  return x.dot(M * x) > 1e-24 * total;  // 1e-32: square of the round-off error of a motion
+  // The limit is well above 1e-32, the square of the round-off error of a motion.
+  return x.dot(M * x) > 1e-24 * total;
 }
 
 /// Returns a shift s < 0 of the magnitude of the lowest elastic eigenvalue, for models with rigid
-/// modes. K - s M is then as well-conditioned as the elastic part of K.
+/// modes. The matrix K - s M is then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
   const VectorXd diagonal = system.K.diagonal(), squared_length = summed_squared_lengths(system);
@@ -55,8 +56,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
-/// x, and the number of missing or superfluous modes. The parameter `K` is the sum K + K_G. `K_G`
-/// is empty without prestress.
+/// x, and the number of missing or superfluous modes. The parameter `K` contains the sum K + K_G.
+/// `K_G` has no entries without prestress.
 void add_evidence(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
                   ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -75,15 +76,16 @@ void add_evidence(const System& system, const SparseMatrix& K, const SparseMatri
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
-/// Computes the modes of (K + K_G) x = w^2 M x. K_G follows from the forces of `state`. It is
-/// omitted if `state` is null.
+/// Computes the modes of (K + K_G) x = w^2 M x. K_G follows from the internal forces of `state` and
+/// is omitted if `state` is null.
 ModalSolution solve(const System& system, const ModesOptions& options,
                     const StaticSolution* state) {
   ModalSolution solution;
   solution.counters = system.counters;
   Counters& counters = solution.counters;
   SparseMatrix K_G(system.K.rows(), system.K.cols()), stiffened;
-  if (system.K.rows() == 0) {  // nothing can move
+  // The model has no free coordinates and therefore no modes.
+  if (system.K.rows() == 0) {
     add_evidence(system, system.K, K_G, solution);
     return solution;
   }
@@ -152,7 +154,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
 bool mass_orthonormalize(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
-  // Rotary inertia is divided by the square of the model size, to be comparable with mass.
+  // Divide rotary inertia by the square of the model size, so that it is comparable with mass.
   const VectorXd squared_length = summed_squared_lengths(system);
   VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();
@@ -162,7 +164,8 @@ bool mass_orthonormalize(const System& system, MatrixXd& Z) {
   const MatrixXd gram = Z.transpose() * (M * Z);
   const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(gram, size);
-  if (!(pairs.value[0] > 1e-18)) return false;  // 1e-32: square of the round-off error of a motion
+  // The limit is well above 1e-32, the square of the round-off error of a motion.
+  if (!(pairs.value[0] > 1e-18)) return false;
   const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
   Z = Z * pairs.vector * inverse.asDiagonal();
   return true;

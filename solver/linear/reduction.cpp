@@ -14,13 +14,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Returns the free coordinates of the nodes that divide members into elements, in uncoupled sets.
-/// There is one set for each member.
+/// Returns the free coordinates of the nodes that divide members into elements, one set per member.
+/// The sets are not coupled with each other.
 std::vector<std::vector<Index>> interior_sets(const System& system) {
   const auto free_coordinate = [&system](Index u) {
     return u < 0 ? Index{-1} : system.constraints.free[to_size(u)];
   };
-  std::vector<Index> root(to_size(system.K.rows()), -1);  // root of its set; -1: boundary
+  // Root of the set (disjoint-set forest) of each coordinate; -1: boundary.
+  std::vector<Index> root(to_size(system.K.rows()), -1);
   for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
     for (const Index u : system.coordinates.node[n]) {
       const Index q = free_coordinate(u);
@@ -38,8 +39,8 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
     for (Index j = 0; j < matrix->outerSize(); ++j)
       for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) join(entry.row(), j);
   }
-  // Bending and stretching of a member along a coordinate axis are uncoupled, but belong to one
-  // set.
+  // Bending and stretching of a member along a coordinate axis are uncoupled. Both are therefore
+  // joined to a single set.
   std::vector<Index> first(system.model.members.size(), -1);
   for (const FrameElement& element : system.mesh.frame) {
     Index& own = first[to_size(element.member)];
@@ -58,7 +59,7 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
   return sets;
 }
 
-/// Returns the columns of the identity matrix with the indices `chosen`.
+/// Returns the columns of the identity matrix whose indices are in `chosen`.
 SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   SparseMatrix S(size, std::ssize(chosen));
   for (Index j = 0; j < S.cols(); ++j) S.insert(chosen[to_size(j)], j) = 1;
@@ -66,7 +67,7 @@ SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   return S;
 }
 
-/// Returns the lowest modes of a member's interior with fixed boundary coordinates.
+/// Returns the lowest modes of the interior of a member with fixed boundary coordinates.
 MatrixXd fixed_interface_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
                                Factorization& factorization, Counters& counters) {
   Pencil pencil;
@@ -87,12 +88,12 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
-/// Limit for the part of a load or static response that the modes do not represent. A part whose
-/// norm (load) or strain energy (response) is a smaller fraction of the total counts as round-off.
+/// Limit for the part of a load or static response that the modes do not represent. A part with a
+/// smaller relative norm (load) or strain energy (response) is treated as a round-off error.
 constexpr double kCarried = 1e-10;
 
 /// Returns the components of static responses that the modes do not represent. Each component has
-/// unit strain energy and is K-orthogonal to the preceding components.
+/// unit strain energy and is K-orthogonal to all preceding components.
 MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
                       const std::vector<VectorXd>& responses) {
   MatrixXd parts(K.rows(), 0);
@@ -108,8 +109,8 @@ MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const Matrix
   return parts;
 }
 
-/// Returns the matrix R of the reduction q = R p. Its columns are the boundary coordinates,
-/// followed by the modes and responses of each set.
+/// Returns the matrix R of the reduction q = R p. The components of p are the boundary coordinates,
+/// followed by the amplitudes of modes and static responses of each interior set.
 SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
                        Counters& counters) {
   const std::vector<std::vector<Index>> sets = interior_sets(system);
@@ -160,11 +161,11 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
 
 SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
   const SparseMatrix product = R.transpose() * (matrix * R);
-  // Make the product symmetric to the last digit, as the factorization requires.
+  // Make the product symmetric in all digits, because the factorization requires exact symmetry.
   return 0.5 * (product + SparseMatrix(product.transpose()));
 }
 
-/// Returns the system in the coordinates p with q = R p.
+/// Returns the system in the reduced coordinates p, with q = R p.
 System in_coordinates(const System& system, const SparseMatrix& R) {
   System reduced = system;
   reduced.T = system.T * R;
@@ -186,7 +187,8 @@ System reduce_members(const System& system, Index modes, const std::vector<Vecto
 
 System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
-  constexpr double kShift = 1e-4;  // relative to the highest eigenvalue of the modes
+  // Shift relative to the highest eigenvalue of the modes.
+  constexpr double kShift = 1e-4;
   const MatrixXd& shape = modes.shape;
   Counters counters = modes.counters;
   SparseMatrix K = system.K;
@@ -207,12 +209,13 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
     if (!factorization.is_nonsingular())
       throw ModelError("the stiffness matrix to reduce is singular");
     VectorXd answer = factorization.solve(rest);
-    answer += factorization.solve(rest - system.K * answer);  // corrects the effect of the shift
+    // Correct the effect of the shift by one step of iterative refinement.
+    answer += factorization.solve(rest - system.K * answer);
     counters.solves += 2;
     responses.push_back(answer);
   }
-  // The responses have unit strain energy instead of unit mass, because massless coordinates may
-  // respond too.
+  // The responses have unit strain energy instead of unit mass, because responses may include
+  // massless coordinates.
   const MatrixXd beyond = beyond_modes(system.K, system.M, shape, responses);
   MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
   basis << shape, beyond;

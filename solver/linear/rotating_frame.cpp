@@ -20,15 +20,15 @@ const Eigen::Matrix2d& perpendicular_matrix() {
   return J;
 }
 
-/// Returns the matrix P that projects vectors on the directions perpendicular to the axis of
+/// Returns the matrix P that projects a vector on the plane or line perpendicular to the axis of
 /// rotation.
 Eigen::Matrix2d distance_projector(RotationAxis axis) {
   return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
       .asDiagonal();
 }
 
-/// Returns the matrix from (x, y, rotation) of a node to the translation of the center of its point
-/// mass.
+/// Returns the matrix that maps (x, y, rotation) of a node to the translation of the center of its
+/// point mass.
 Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_mass) {
   Eigen::Matrix<double, 2, 3> B;
   B << Eigen::Matrix2d::Identity(), perpendicular_matrix() * point_mass.offset;
@@ -36,8 +36,8 @@ Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_
 }
 
 /// Returns the integral of rho N^T A N over the volume of a frame element, in element axes. The
-/// symbol rho is the density. N interpolates the translations, and A is a 2 x 2 matrix between
-/// them. Lumped mass acts on translations only.
+/// symbol rho is the density. N interpolates the translations, and A is a 2 x 2 matrix. Lumped mass
+/// acts on translations only.
 Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
   Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
@@ -66,12 +66,13 @@ Matrix6d rotary_mass(FrameElement e, const Member& member) {
 
 /// Centrifugal effect on a section of unit rotary inertia, for an axis of rotation in the plane.
 /// Points of the section at a height y are displaced by y (n cos a - d sin a) from the axis of the
-/// member. d is the direction along the member, n is normal to it, and a is the rotation. Their
-/// squared distance from the rotation axis contains the additional term
+/// member. d is the direction along the member, n is normal to d, and a is the rotation of the
+/// section. The squared distance of these points from the rotation axis contains the additional
+/// term
 ///
 ///   y^2 (2 moment a + stiffness a^2).
 ///
-/// The section therefore turns to be perpendicular to the axis.
+/// The section therefore rotates toward the direction perpendicular to the rotation axis.
 struct SectionPull {
   double moment, stiffness;
 };
@@ -80,8 +81,8 @@ SectionPull section_pull(const Eigen::Matrix2d& P, const Vector2d& d) {
   return {-n.dot(P * d), d.dot(P * d) - n.dot(P * n)};
 }
 
-/// Calls visit(coordinates, S, G) for all elements and point masses, in world axes. S and G are
-/// their terms of the centrifugal and Coriolis matrices.
+/// Calls visit(coordinates, S, G) for all elements and point masses, in world axes. S and G are the
+/// element matrices of the centrifugal and Coriolis forces.
 template <class Visit>
 void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
   const Model& model = system.model;
@@ -144,12 +145,13 @@ SparseMatrix gyroscopic_matrix(const System& system) {
   on_u.setFromTriplets(entries.begin(), entries.end());
   const SparseMatrix matrix = system.T.transpose() * on_u * system.T;
   const SparseMatrix transposed = matrix.transpose();
-  return 0.5 * (matrix - transposed);  // skew-symmetric to the last bit
+  // Make the matrix exactly skew-symmetric.
+  return 0.5 * (matrix - transposed);
 }
 
 VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
-  // The interpolation represents the position of every point exactly by the node positions with
-  // zero rotation.
+  // The interpolation with the node positions and zero rotations represents the position of every
+  // point exactly.
   VectorXd position = u;
   for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
     const Vector2d arm = system.mesh.positions[node] - frame.center;
@@ -165,7 +167,7 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
                         force);
       });
   // Add the effect of the section height, which the interpolation of the member axis does not
-  // contain.
+  // include.
   for (const FrameElement& e : system.mesh.frame) {
     if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
     const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
@@ -175,8 +177,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     const double moment = w2 * section_pull(P, e.direction).moment;
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
-  // Add the constant offset of each center of mass from its node, which the interpolation does not
-  // contain.
+  // Add the effect of the constant offset of each center of mass from its node, which the
+  // interpolation does not include.
   for (const PointMass& point_mass : system.model.masses)
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * center_of_mass_interpolation(point_mass).transpose() *
@@ -215,8 +217,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// Solves for the steady state of the rotating frame. Returns false if the internal forces do not
-/// converge or the state does not exist.
+/// Computes the steady state of the rotating frame. Returns false if the internal forces do not
+/// converge or no steady state exists.
 bool find_steady_state(const System& system, const RotatingOptions& options,
                        StiffenedEquilibrium& steady, StaticState& state, Counters& counters) {
   const RotatingFrame& frame = options.frame;
@@ -268,9 +270,9 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
   return rows.backward_error();
 }
 
-/// Returns the number of missing or superfluous modes. For a stable state, the modes below the
-/// last clear gap between frequencies are counted by a factorization. An unstable state must have
-/// as many modes as the rank of the mass matrix.
+/// Returns the number of missing or superfluous modes. In a stable state, the modes below the last
+/// clear gap between frequencies are counted by a factorization. In an unstable state, the number
+/// of modes must be the rank of the mass matrix.
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
   if (stable) {
@@ -330,7 +332,8 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
       [&](const MatrixXd& X) -> MatrixXd {
         return projected_stiffness(system, system.T * X) + X.transpose() * (added * X);
       }};
-  if (system.M.coeffs().isZero(0)) return result;  // no mass, no vibration
+  // A model without mass has no vibration modes.
+  if (system.M.coeffs().isZero(0)) return result;
   const bool stable = steady.is_stable();
   const GyroscopicModes modes = gyroscopic_modes(pencil, stable, options, result.counters);
   result.outcome = modes.outcome;

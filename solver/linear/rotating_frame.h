@@ -20,32 +20,35 @@
 /// G is `gyroscopic_matrix`, S is `centrifugal_softening`, and Omega^2 f_c are the centrifugal
 /// forces on the undeformed structure. K_G is the geometric stiffness of the internal forces.
 ///
-/// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, which is
-/// assumed equal along and across the axis. They do not act on the rotary inertia of sections if
-/// the axis is normal to the plane.
+/// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, whose mass
+/// is assumed to be distributed equally along and across the axis. If the axis is normal to the
+/// plane, these terms do not act on the rotary inertia of sections either.
 namespace trammel::solver {
 
-/// Axis of rotation: the normal of the plane, or an axis in the plane. An axis in the plane has
-/// these effects:
+/// Axis of rotation: the normal of the plane, or an axis in the plane. An axis in the plane has the
+/// following effects:
 ///
 /// - Centrifugal forces point away from the axis.
 /// - Motion along the axis (flapping of a blade) is not softened.
-/// - Coriolis forces are normal to the plane, in which direction nothing moves.
+/// - Coriolis forces are normal to the plane. The planar model does not move in this direction.
 enum class RotationAxis { normal, x, y };
 
 /// Steady rotation of a reference frame.
 struct RotatingFrame {
-  double speed = 0;                    ///< Omega [rad/s]
-  Vector2d center = Vector2d::Zero();  ///< c, a point on the axis [m]
+  /// Angular speed Omega [rad/s].
+  double speed = 0;
+  /// Center c, a point on the axis of rotation [m].
+  Vector2d center = Vector2d::Zero();
   RotationAxis axis = RotationAxis::normal;
 };
 
-/// Returns S, the mass matrix of motions perpendicular to the axis of rotation, q x q [SI].
+/// Returns the matrix S, which is the mass matrix of motions perpendicular to the axis of rotation,
+/// q x q [SI].
 [[nodiscard]] SparseMatrix centrifugal_softening(const System& system,
                                                  RotationAxis axis = RotationAxis::normal);
 
-/// Returns the matrix of the Coriolis forces, G = integral rho N^T J N dV, with the interpolation N
-/// of the displacements, q x q, skew-symmetric [SI].
+/// Returns the skew-symmetric matrix G of the Coriolis forces, G = integral rho N^T J N dV, q x q
+/// [SI]. N is the interpolation of the displacements.
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
 /// Returns the centrifugal forces Omega^2 integral rho N^T (x - c + u) dV on the unconstrained
@@ -53,7 +56,8 @@ struct RotatingFrame {
 [[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
 
-/// Returns the body forces of the model plus the centrifugal forces at displacements u.
+/// Returns the body forces of the model plus the centrifugal forces, which include the effect of
+/// displacements u.
 [[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame,
                                      const Eigen::VectorXd& u);
 
@@ -64,9 +68,9 @@ struct RotatingOptions {
       EigenMethod::automatic;  ///< for a stable state; an unstable state requires the dense method
   bool gyroscopic = true;      ///< false: omit the Coriolis forces G
   bool stiffening = true;      ///< false: omit the geometric stiffness K_G
-  /// true: K_G follows from the forces in the steady state. false: K_G follows from linear statics
-  /// under the centrifugal forces on the undeformed structure, as in the classical equations of
-  /// blades.
+  /// true: K_G follows from the internal forces in the steady state. false: K_G follows from linear
+  /// statics under the centrifugal forces on the undeformed structure, as in the classical
+  /// equations of blades.
   bool prestress_at_steady_state = true;
 };
 
@@ -78,21 +82,25 @@ struct RotatingOptions {
 ///
 /// The supports rotate with the frame, and the geometry is undeformed.
 ///
-/// Stable states have real omega. Their modes solve a Hermitian problem in 1 / omega, and are
-/// counted completely: at an omega just above the last mode, the matrix of the second equation has
-/// as many negative pivots as there are lower modes.
+/// Stable states have real omega. Their modes solve a Hermitian problem in 1 / omega, and no mode
+/// is missing. At an omega just above the last mode, the matrix of the second equation must have as
+/// many negative pivots as there are modes with lower omega.
 struct RotatingModes {
-  Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
-  Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion
-  bool stable = true;           ///< false: the amplitude of at least one mode grows
-  Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for monotonic growth
+  /// singular: the model is a mechanism. not_converged: see Outcome::reason.
+  Outcome outcome;
+  /// Steady state in free coordinates; `node_motion` converts it to node displacements.
+  Eigen::VectorXd q;
+  bool stable = true;  ///< false: the amplitude of at least one mode grows
+  /// Frequencies, ascending [Hz]; 0 for a mode that grows without oscillation.
+  Eigen::VectorXd frequency;
   Eigen::VectorXd growth_rate;  ///< growth rate of each mode [1/s]; 0 in a stable state
   Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1
   Evidence evidence;
   Counters counters;
 };
 
-/// Computes the steady state of a rotating frame and the modes about it.
+/// Computes the steady state of a model in a rotating frame and the vibration modes about this
+/// state.
 [[nodiscard]] RotatingModes solve_rotating_modes(const System& system,
                                                  const RotatingOptions& options);
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Adds k u to the rows of the coordinates of the element, for each column of u.
+/// Adds the product k u of an element to the rows `sum` of its coordinates, for each column of u.
 template <class Coordinates, class Stiffness, class Matrix>
 void add_product(const Coordinates& coordinates, const Stiffness& k, const Matrix& u, Matrix& sum) {
   for (Index state = 0; state < u.cols(); ++state)
@@ -101,7 +101,7 @@ double RowBalance<Scalar>::residual_over_load() const {
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
   // Increase each residual to at least its round-off error, because round-off errors cancel at some
-  // orientations of the model. The result would otherwise depend on the orientation.
+  // orientations of the model. The returned ratio would otherwise depend on the orientation.
   const VectorXd residual =
       row_residuals().col(0).cwiseAbs().cwiseMax(kEps * row_term_magnitudes().col(0));
   const double size = scale.cwiseProduct(residual).norm();

@@ -28,7 +28,8 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
     solution.q = q;
     const double bound = forward_error(factors, R, q, system.f, inverse);
     solution.error = bound + left;
-    return left <= bound;  // not satisfied by NaN
+    // The comparison is false for NaN.
+    return left <= bound;
   };
   const auto solve = [&](const VectorXd& b) -> VectorXd {
     ++counters.solves;
@@ -80,9 +81,10 @@ double relative_force_roundoff(const System& system, const VectorXd& q) {
 
 namespace {
 
-constexpr double kSmallestStep = 1e-4;  // smallest load step; 1 is the full load
+// Smallest load step, as a fraction of the full load.
+constexpr double kSmallestStep = 1e-4;
 
-/// Returns the internal forces of a state q under the fraction `load` of all loads.
+/// Returns the internal forces of a state q under the fraction `load` of the full load.
 Prestress forces_at(const System& system, double load, const VectorXd& q, const Prestress* before) {
   BodyForces weights = body_forces(system);
   for (Vector2d& weight : weights.element) weight *= load;
@@ -180,7 +182,8 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
   reached.outcome = require_determinate_prestress(system);
   if (!reached.outcome.solved()) return reached;
   StiffenedEquilibrium equilibrium(system, counters);
-  Outcome whole;  // outcome of the attempt with the full load in one step
+  // Outcome of the first attempt, with the full load in one step.
+  Outcome whole;
   double load = 0, step = 1;
   while (load < 1) {
     const double target = std::min(1.0, load + step);

@@ -23,14 +23,14 @@ double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
 }
 
-/// Returns the factor by which the loads amplify the second-order displacement, d = -(K + K_G)^-1
-/// K_G q with the first-order displacement q. It is the ratio of the elastic stiffness of the
-/// motion d to its stiffness under load:
+/// Returns the factor by which the loads amplify the second-order displacement d = -(K + K_G)^-1
+/// K_G q, where q is the first-order displacement. This factor is the ratio of the elastic
+/// stiffness to the stiffness under load for the motion d:
 ///
 ///   d^T K d / d^T (K + K_G) d.
 ///
-/// For a single buckling shape it is 1 / (1 - fraction of the buckling load). The part of q that
-/// causes no second-order displacement does not affect the result.
+/// For a single buckling shape, the factor is 1 / (1 - fraction of the buckling load). The part of
+/// q that causes no second-order displacement does not affect the factor.
 double amplification(const System& system, const VectorXd& first, const StaticState& second) {
   const VectorXd added = second.q - first;
   const double stiffness = projected_stiffness(system, system.T * added)(0, 0);
@@ -40,16 +40,16 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
-/// Adds residuals to the evidence of the solution: the residual of K q + K_G q = f with K and K_G
-/// computed again, and the imbalance of the reported forces.
+/// Adds residuals to the evidence of the solution: the residual of K q + K_G q = f with newly
+/// computed matrices K and K_G, and the imbalance of the reported forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
   rows.add_elastic_forces(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
-    // K_G results from differences of larger values. Their round-off errors are added to the scale
-    // of the residual.
+    // K_G results from differences of larger values. The round-off errors of these values are added
+    // to the scale of the residual.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
     rows.add_term_magnitudes(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() /
                              kEps);
@@ -89,8 +89,8 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
 
 namespace {
 
-/// Section forces N, V and M along one element. They act on a face whose normal points from the
-/// first to the second node:
+/// Section forces N, V and M along one element. The forces act on a face whose normal points from
+/// the first to the second node:
 ///
 ///   EI v'' = M, dM/dx = -V, dV/dx = -qy, dN/dx = -qx.
 struct SectionForces {
@@ -106,7 +106,7 @@ struct SectionForces {
             straight - load.y() * x * (length - x) / 2};
   }
   /// Returns the slope dM/dx = -V of the bending moment at the first end of the element. V acts
-  /// across the undeformed axis. In second-order theory the axial force contributes to dM/dx.
+  /// across the undeformed axis. In second-order theory, the axial force contributes to dM/dx.
   [[nodiscard]] double slope(double length) const {
     return (end[2] - start[2]) / length - load.y() * length / 2;
   }
@@ -117,8 +117,9 @@ SectionForces section_forces(const Vector6d& end, double length) {
   return {-end.head<3>(), end.tail<3>(), load};
 }
 
-/// Returns |N| / A + |M| / W at a point of an element [Pa]. It is 0 at the pointed end of a taper.
-/// It is NaN if the section has no area or modulus and the force exceeds round-off.
+/// Returns |N| / A + |M| / W at a point of an element [Pa]. The result is 0 at the pointed end of a
+/// taper. The result is NaN if the section has no area or modulus and the force or moment exceeds
+/// `roundoff`.
 double stress_at(const Member& member, const FrameElement& e, double from_start, double x,
                  const Vector3d& forces, const ForceRoundoff& roundoff) {
   const double length = e.length * static_cast<double>(member.elements);
@@ -131,9 +132,9 @@ double stress_at(const Member& member, const FrameElement& e, double from_start,
   return axial + bending;
 }
 
-/// Returns the largest stress of an element [Pa]. It evaluates both ends and, under a transverse
-/// load, the two possible stationary points of |N|/A + |M|/W. For a taper it also evaluates
-/// intermediate points.
+/// Returns the largest stress of an element [Pa]. The stress is evaluated at both ends and, under a
+/// transverse load, at the two possible stationary points of |N|/A + |M|/W. For a taper, the stress
+/// is also evaluated at intermediate points.
 double largest_stress(const Member& member, const FrameElement& e, double from_start,
                       const SectionForces& f, const ForceRoundoff& roundoff) {
   double largest = 0;
@@ -145,7 +146,8 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
   evaluate(e.length);
   const bool tapers = member.section.section_modulus != member.end_section.section_modulus ||
                       member.section.area != member.end_section.area;
-  constexpr int kPoints = 16;  // underestimates a smooth maximum by less than 1 %
+  // Number of intervals of the search, which underestimates a smooth maximum by less than 1 %.
+  constexpr int kPoints = 16;
   for (int k = 1; tapers && k < kPoints; ++k) evaluate(e.length * k / kPoints);
   if (f.load.y() != 0) {
     const double lever =
@@ -222,7 +224,8 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
 void sum_external_forces(const System& system, const ElasticState& state,
                          StaticSolution& solution) {
   VectorXd load = acting_load(system, state);
-  if (state.prestress) {  // second-order theory: forces turn with the part on which they act
+  // Second-order theory: forces rotate with the part on which they act.
+  if (state.prestress) {
     load -= geometric_stiffness_forces(system, *state.prestress, state.u);
   }
   for (const SpringElement& spring : system.springs) {
@@ -257,7 +260,8 @@ VectorXd constraint_multipliers(const System& system, const ElasticState& state)
 }
 
 ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
-  constexpr double kShare = 1e-10;  // relative; equals the limit of the equilibrium residual
+  // Relative limit, equal to the limit of the equilibrium residual.
+  constexpr double kShare = 1e-10;
   if (ends.cols() == 0) return {};
   double force = 0, moment = 0;
   for (const Index end : {0, 3}) {
@@ -349,7 +353,8 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
 
 namespace {
 
-/// Adds the forces of nodes on members, computed from the section forces without the member loads.
+/// Adds the forces of nodes on members to `sum`. The forces are computed from section forces and
+/// member loads.
 void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
                  VectorXd& sum) {
   const ElementForces forces = end_forces(system, state);
@@ -362,15 +367,15 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
     force = frame_transformation_matrix(e.direction).transpose() * force;
-    // Add the nodal forces of the load along the element, because the section forces at its ends do
-    // not include them.
+    // Add the nodal forces of the load along the element, which the section forces at its ends do
+    // not include.
     detail::scatter(e.coordinates,
                     (force + element_load(e, acting_line_load(system, state, e))).eval(), sum);
   }
 }
 
-/// Adds the forces of springs and triangles, and second-order forces of all elements except
-/// members. The section forces of members include these forces.
+/// Adds the forces of springs and triangles, and the second-order forces of all elements except
+/// members. The section forces of members include the second-order forces of members.
 void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
   const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto deformation = (B * detail::gather(coordinates, state.u)).eval();
@@ -387,7 +392,8 @@ void add_other_elements(const System& system, const ElasticState& state, VectorX
   sum += geometric_stiffness_forces(system, rest, state.u);
 }
 
-/// Adds the forces of supports and other constraints and their magnitudes.
+/// Adds the forces of supports and other constraints to `sum`, and their magnitudes to
+/// `magnitudes`.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
   const VectorXd multipliers = constraint_multipliers(system, state);
@@ -396,7 +402,7 @@ void add_constraints(const System& system, const ElasticState& state,
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
       magnitudes[coordinate] += std::abs(coefficient * force);
-    // The section forces of the member include this constraint force.
+    // The section forces of an inextensible member include its constraint force.
     if (row.source == ConstraintRow::Source::inextensible) continue;
     if (row.source == ConstraintRow::Source::support)
       force = solution.reaction(row.index, support_component(system, row));
@@ -414,7 +420,7 @@ double largest_relative_imbalance(const System& system, const ElasticState& stat
   add_other_elements(system, state, sum);
   add_constraints(system, state, solution, sum, magnitudes);
   // Constraints transfer the round-off error of a force to other coordinates, for example along a
-  // chain of inextensible elements to its free end.
+  // chain of inextensible elements to the free end of the chain.
   const VectorXd length = length_scales(system);
   const double largest = magnitudes.cwiseQuotient(length).maxCoeff();
   return row_backward_error(sum, magnitudes.cwiseMax(kLeastFraction * largest * length));

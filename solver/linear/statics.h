@@ -12,55 +12,71 @@
 namespace trammel::solver {
 
 struct StaticsOptions {
-  /// true: second-order theory, (K + K_G) q = f. K_G is the geometric stiffness of the internal
-  /// forces of the solution itself. Tension stiffens, and compression softens
+  /// true: second-order theory, (K + K_G) q = f. K_G is the geometric stiffness matrix of the
+  /// internal forces of the solution q. Tension stiffens, and compression softens
   /// (geometric_stiffness.h).
   bool second_order = false;
 };
 
 /// Result of statics, K q = f (Varalakshmi & Srinivas 2017, Eq. 11). Section forces N, V, M act on
-/// a face whose normal points from the first to the second node of a member. x points along the
-/// member and y to its left. Tension is positive:
+/// a face whose normal points from the first to the second node of a member. The x axis points
+/// along the member and the y axis to the left of x. Tension is positive:
 ///
 ///   \f[ EI\, v'' = M, \quad dM/dx = -V, \quad dV/dx = -q_y, \quad dN/dx = -q_x. \f]
 struct StaticSolution {
-  Outcome outcome;           ///< singular: the reason describes the zero-energy mode
-  Eigen::VectorXd q;         ///< free coordinates; see node_motion
-  Prestress forces;          ///< second-order theory: internal forces of q
-  double amplification = 1;  ///< factor by which the loads amplify second-order displacements [-]
-  double estimated_correct_digits = 0;  ///< of the largest displacement, from StaticState::error
+  Outcome outcome;  ///< singular: the reason describes the zero-energy mode
+  /// Free coordinates; `node_motion` converts them to node displacements.
+  Eigen::VectorXd q;
+  /// Internal forces of q; only computed in second-order theory.
+  Prestress forces;
+  /// Factor by which the loads amplify the second-order displacement: elastic stiffness over
+  /// stiffness under load [-].
+  double amplification = 1;
+  /// Estimated number of correct digits of the largest displacement, from StaticState::error.
+  double estimated_correct_digits = 0;
   /// Displacements of the model nodes, one row (ux [m], uy [m], rotation [rad]) per node. The
   /// rotation is NaN for a node without rotation.
   Eigen::MatrixX3d displacement;
-  Eigen::MatrixX2d end_rotation;  ///< member x (first end, second end) [rad]
+  /// Rotations of member ends, member x (first end, second end) [rad].
+  Eigen::MatrixX2d end_rotation;
   /// Reactions (forces of the ground on the nodes), one row (Fx, Fy [N], moment [N m]) per support.
   Eigen::MatrixX3d reaction;
-  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m]) at its first node
-  Eigen::MatrixX3d resultant_end;    ///< member x (N [N], V [N], M [N m]) at its second node
-  Eigen::VectorXd member_stress;     ///< largest |N|/A + |M|/W along each member [Pa]
-  Eigen::MatrixX3d triangle_stress;  ///< triangle x (sxx, syy, sxy) at its centroid [Pa]
-  /// Nodal stresses, one row (sxx, syy, sxy) [Pa] per model node: the area-weighted mean of the
-  /// stresses at the node in its triangles. Nodes without triangles have NaN.
+  /// Section forces at the first node, member x (N [N], V [N], M [N m]).
+  Eigen::MatrixX3d resultant_start;
+  /// Section forces at the second node, member x (N [N], V [N], M [N m]).
+  Eigen::MatrixX3d resultant_end;
+  /// Largest |N|/A + |M|/W along each member [Pa].
+  Eigen::VectorXd member_stress;
+  /// Stresses at the centroid, triangle x (sxx, syy, sxy) [Pa].
+  Eigen::MatrixX3d triangle_stress;
+  /// Nodal stresses, one row (sxx, syy, sxy) [Pa] per model node. The nodal stress is the
+  /// area-weighted mean of the stresses of the adjacent triangles at the node. Nodes without
+  /// triangles have NaN.
   Eigen::MatrixX3d node_stress;
-  double equilibrium_residual = 0;  ///< norm of the sum of reactions and loads [N]
-  double moment_residual = 0;       ///< moment of this sum about the world origin [N m]
-  Evidence evidence;                ///< residuals of the state in the theory that was solved
+  /// Norm of the sum of reactions and loads [N].
+  double equilibrium_residual = 0;
+  /// Magnitude of the moment of all reactions and loads about the world origin [N m].
+  double moment_residual = 0;
+  /// Residuals of the equation that was solved, of linear or second-order theory.
+  Evidence evidence;
   Counters counters;
 };
 
 [[nodiscard]] StaticSolution solve_statics(const System& system,
                                            const StaticsOptions& options = {});
 
-/// Displaced and loaded state from which forces and stresses are computed.
+/// State of the model, with displacements and loads from which forces and stresses are computed.
 struct ElasticState {
   Eigen::VectorXd u;         ///< displacements of the unconstrained coordinates [m, rad]
   double load_factor = 1;    ///< factor of all loads except weight
   double weight_factor = 1;  ///< factor of the weight
-  /// Accelerations of the unconstrained coordinates, including the effect of mass-proportional
-  /// damping. The vector is empty in a state at rest.
+  /// Accelerations of the unconstrained coordinates. They include the mass-proportional damping
+  /// forces divided by the mass. The vector is empty in a state at rest.
   Eigen::VectorXd acceleration;
-  const Prestress* prestress = nullptr;  ///< forces of second-order theory, or null
-  Eigen::VectorXd constraint_forces;     ///< see constraint_forces(); empty: not computed yet
+  /// Internal forces of second-order theory; null for linear theory.
+  const Prestress* prestress = nullptr;
+  /// Result of `constraint_multipliers`; empty if not yet computed.
+  Eigen::VectorXd constraint_forces;
 };
 
 /// Returns the loads of a state on the unconstrained coordinates [N, N m].
@@ -73,28 +89,29 @@ struct ElasticState {
 /// axial force, transverse force and moment at the first node, then at the second node [N, N, N m].
 using ElementForces = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Displacements of a state, its forces on the frame elements and its constraint forces. They are
-/// computed by linear, second-order or geometrically exact theory.
+/// Displacements of a state, and its forces on the frame elements and constraint forces from
+/// linear, second-order or geometrically exact theory.
 struct RecoveredForces {
   const std::vector<Vector2d>& position;  ///< positions of the mesh nodes, model nodes first [m]
   const Eigen::VectorXd& u;               ///< unconstrained coordinates [m, rad]
   const Constraints& constraints;
-  Eigen::VectorXd multipliers;  ///< multipliers of the constraint rows [N, N m]
+  /// Lagrange multipliers of the constraint rows [N, N m].
+  Eigen::VectorXd multipliers;
   ElementForces element;
 };
 
-/// Limits of the magnitudes of forces [N] and moments [N m] of a state. Smaller values are
+/// Magnitudes of forces [N] and moments [N m] below which forces and moments of a state are
 /// round-off errors.
 struct ForceRoundoff {
   double force = 0, moment = 0;
 };
 /// Returns the limits below which forces and moments of a state are round-off errors.
-/// @param ends  forces on the frame elements.
+/// @param ends  forces of the nodes on the frame elements.
 /// @param size  size of the model [m].
 [[nodiscard]] ForceRoundoff force_roundoff(const ElementForces& ends, double size);
 
 /// Returns force over area, or moment over section modulus [Pa]. If the section has no area or
-/// modulus, the result is 0 for a force at round-off level and NaN for a larger force.
+/// modulus, the result is 0 for a force within `roundoff` and NaN for a larger force.
 template <class T>
 [[nodiscard]] double stress_of_force(const T& force, double area_or_modulus, double roundoff) {
   const double size = std::abs(force), stress = size / area_or_modulus;
@@ -103,16 +120,20 @@ template <class T>
 }
 
 /// Computes displacements, rotations of member ends, reactions, section forces and member stresses.
-/// The largest stress is searched at the ends of each element and between them. Within an element,
-/// the section forces follow from its end forces and a uniform load that balances them.
+/// The largest stress is searched at the ends of each element and between the ends. Within an
+/// element, the section forces follow from the end forces and from a uniform load that balances the
+/// end forces.
 void set_displacements_and_forces(const System& system, const RecoveredForces& forces,
                                   StaticSolution& solution);
 
-/// Sums of forces, of moments about the origin, and of the magnitudes of their terms.
+/// Sum of forces, sum of moments about the origin, and sums of the magnitudes of all terms.
 struct ForceSum {
-  Vector2d force = Vector2d::Zero();  ///< [N]
-  double moment = 0;                  ///< [N m]
-  Vector2d terms = Vector2d::Zero();  ///< [N], [N m]
+  /// Sum of forces [N].
+  Vector2d force = Vector2d::Zero();
+  /// Sum of moments about the origin [N m].
+  double moment = 0;
+  /// Sums of the magnitudes of forces [N] and of moments [N m].
+  Vector2d terms = Vector2d::Zero();
 
   void add(const Vector2d& at, const Vector2d& f, double m);
 };
@@ -124,8 +145,9 @@ struct ForceSum {
 [[nodiscard]] ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
                                   const Eigen::VectorXd& load, const StaticSolution& solution);
 
-/// Returns the multipliers of the constraint rows [N, N m]: forces of supports, rigid bodies and
-/// inextensible members. They balance elastic forces, inertia forces and loads.
+/// Returns the Lagrange multipliers of the constraint rows [N, N m]: forces of supports, rigid
+/// bodies and inextensible members. The constraint forces balance elastic forces, inertia forces
+/// and loads.
 [[nodiscard]] Eigen::VectorXd constraint_multipliers(const System& system,
                                                      const ElasticState& state);
 
@@ -133,17 +155,18 @@ struct ForceSum {
 /// the load f.
 [[nodiscard]] ElementForces end_forces(const System& system, const ElasticState& state);
 
-/// Returns the column of `StaticSolution::reaction` to which a constraint row of a support belongs.
+/// Returns the column of `StaticSolution::reaction` for a constraint row of a support.
 [[nodiscard]] Index support_component(const System& system, const ConstraintRow& row);
 
 /// Computes displacements, forces, stresses and residuals. In a state with acceleration, section
-/// forces and reactions include inertia forces. The equilibrium residuals do not include them.
+/// forces and reactions include inertia forces. The equilibrium residuals do not include inertia
+/// forces.
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution);
 
 /// Returns the largest imbalance of the reported forces at any coordinate, relative to `terms`. The
 /// reported forces are section forces at member ends, forces of springs and triangles, reactions,
-/// forces of other constraints, and nodal loads. This check only confirms that the forces belong to
-/// the state. The result is small even if the state does not solve the equation.
+/// forces of other constraints, and nodal loads. This check only confirms that the forces follow
+/// from the state. The result is small even if the state does not solve the equation of statics.
 /// @param system  assembled model.
 /// @param state  displacements, loads and accelerations.
 /// @param solution  solution that contains the reported forces.

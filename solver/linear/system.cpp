@@ -32,8 +32,8 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
   return springs;
 }
 
-/// Returns a matrix sum over elements, with an explicit zero at each diagonal position. The
-/// sparsity pattern therefore contains free coordinates to which no element contributes.
+/// Returns an empty sum of element matrices with an explicit zero at each diagonal position. The
+/// sparsity pattern therefore includes the free coordinates to which no element contributes.
 Projection empty_sum(const System& system) {
   const auto& triangles = system.model.triangles;
   const bool quadratic = !triangles.empty() && triangles.front().quadratic();
@@ -96,7 +96,8 @@ Eigen::VectorXd weight_of(const System& system) {
   for (const FrameElement& e : system.mesh.frame)
     detail::scatter(e.coordinates, element_load(e, e.section.mass_per_length * gravity), weight);
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
-    Eigen::VectorXd fall(m.cols());  // same acceleration at every node
+    // Acceleration of gravity at every node of the triangle.
+    Eigen::VectorXd fall(m.cols());
     for (Index i = 0; i < fall.size(); ++i) fall[i] = gravity[i % 2];
     detail::scatter(coordinates, (m * fall).eval(), weight);
   });
@@ -108,13 +109,15 @@ Eigen::VectorXd weight_of(const System& system) {
   return weight;
 }
 
-/// Returns the loads on nodes, members and sides of plates as forces on the coordinates u.
+/// Returns the loads on nodes, members and sides of plates, converted to forces on the coordinates
+/// u.
 Eigen::VectorXd applied_load(const System& system) {
   const Model& model = system.model;
   const auto& node = system.coordinates.node;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const NodalLoad& load : model.loads) {
-    if (load.force[2] != 0) {  // throws if the node has no rotation
+    // index_of throws an exception if the node has no rotation.
+    if (load.force[2] != 0) {
       (void)system.coordinates.index_of(model, {Coordinate::Kind::rotation, load.node, -1, 0});
     }
     detail::scatter(node[to_size(load.node)], load.force, sum);
@@ -157,7 +160,8 @@ System assemble(const Model& model, Effects active) {
   system.springs = spring_elements(system.model, system.coordinates);
   system.T = system.constraints.T;
   const bool has_inertia = active.has(Effect::inertia);
-  stiffness(system, system.counters).swap(system.K);  // swap: Eigen 3.4 copies on assignment
+  // Use swap, because Eigen 3.4 copies on assignment.
+  stiffness(system, system.counters).swap(system.K);
   if (has_inertia) mass(system, system.counters).swap(system.M);
   count_effects(system, has_inertia, system.counters);
   system.weight = weight_of(system);

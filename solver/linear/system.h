@@ -12,16 +12,18 @@
 
 namespace trammel::solver {
 
-/// Linear spring between two unconstrained coordinates, or between one and the ground (-1).
+/// Linear spring between two unconstrained coordinates, or between the ground (-1) and a
+/// coordinate.
 struct SpringElement {
   std::array<Index, 2> coordinates{-1, -1};
-  double stiffness = 0;  ///< [N/m] or [N m/rad]
+  /// Spring stiffness [N/m] or [N m/rad].
+  double stiffness = 0;
 };
 
 /// Assembled linear model. The unconstrained coordinates u are node translations, node rotations,
-/// and rotations of released member ends. They follow from the free coordinates q by u = T q. T
-/// enforces supports, hinges, rigid bodies, linear constraints (LinearConstraint) and inextensible
-/// members.
+/// and rotations of released member ends. They follow from the free coordinates q by u = T q. The
+/// matrix T satisfies the constraints: supports, hinges, rigid bodies, linear constraints
+/// (LinearConstraint) and inextensible members.
 struct System {
   Model model;
   Mesh mesh;                ///< node positions and elements, also for drawing
@@ -29,10 +31,13 @@ struct System {
   Constraints constraints;
   std::vector<SpringElement> springs;
 
-  SparseMatrix T;     ///< u x q
-  SparseMatrix K;     ///< stiffness, q x q [SI]; symmetric, both triangles stored
-  SparseMatrix M;     ///< mass, q x q [SI]; symmetric, both triangles stored; 0 x 0 without inertia
-  Eigen::VectorXd f;  ///< loads on q [SI]
+  /// Matrix in u = T q, u x q.
+  SparseMatrix T;
+  /// Stiffness matrix, q x q [SI]; symmetric, both triangles stored.
+  SparseMatrix K;
+  /// Mass matrix, q x q [SI]; symmetric, both triangles stored; 0 x 0 without inertia.
+  SparseMatrix M;
+  Eigen::VectorXd f;       ///< loads on q [SI]
   Eigen::VectorXd load;    ///< loads on u [SI]; f = T^T load
   Eigen::VectorXd weight;  ///< part of `load` that is weight [SI]
   Counters counters;
@@ -43,12 +48,12 @@ struct System {
 /// @throws ModelError  if the model is invalid.
 [[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 
-/// Returns the node motions of free coordinates q: one row (ux [m], uy [m], rotation [rad]) per
-/// model node. The rotation is NaN for a node without rotation.
+/// Converts free coordinates q to displacements of the model nodes: one row (ux [m], uy [m],
+/// rotation [rad]) per node. The rotation is NaN for a node without rotation.
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
-/// Returns the node motions of unconstrained coordinates u: one row (ux [m], uy [m], rotation
-/// [rad]) per model node.
+/// Converts unconstrained coordinates u to displacements of the model nodes: one row (ux [m], uy
+/// [m], rotation [rad]) per node. The rotation is NaN for a node without rotation.
 [[nodiscard]] Eigen::MatrixX3d node_motion_from_unconstrained(const System& system,
                                                               const Eigen::VectorXd& u);
 
@@ -69,8 +74,8 @@ struct System {
   return length_scales(system).asDiagonal() * system.T;
 }
 
-/// Returns, for each free coordinate, the sum of squared lengths [m^2] by which its unit motion
-/// moves all coordinates u.
+/// Returns one value [m^2] per free coordinate: the sum of squares of all coordinates u for a unit
+/// value of the free coordinate. Rotations are multiplied by the model size.
 [[nodiscard]] inline Eigen::VectorXd summed_squared_lengths(const System& system) {
   const SparseMatrix lengths = free_to_length_matrix(system);
   return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());

@@ -16,7 +16,8 @@ void require(bool holds, const std::string& part, const char* what) {
   if (!holds) throw ModelError(part + ' ' + what);
 }
 
-/// Returns true for zero and positive numbers, and false for NaN and infinity.
+/// Returns true for zero and positive finite numbers, and false for negative numbers, NaN and
+/// infinity.
 bool is_amount(double value) {
   return std::isfinite(value) && value >= 0;
 }
@@ -130,8 +131,8 @@ class Validator {
                        node_label(model_, triangle.nodes[2]) + ") has no area");
   }
 
-  /// Checks that the mapping from area coordinates to a six-node triangle does not fold: its
-  /// determinant has the same sign at all six nodes and at the centroid.
+  /// Checks that the mapping from area coordinates to a six-node triangle does not fold. The
+  /// determinant of the mapping must have the same sign at all six nodes and at the centroid.
   void curved(const Triangle& triangle, const std::string& part) const {
     const auto area_at = [&](const Vector3d& at) {
       return evaluate_shape_functions(model_, triangle, at).signed_area;
@@ -260,7 +261,8 @@ Model restrict_effects(Model model, Effects active) {
 
 bool is_axially_overconstrained(const Model& model) {
   Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
-  for (Member& member : stiff.members) member.elements = 1;  // interior nodes follow the ends
+  // One element is sufficient, because interior nodes follow the member ends.
+  for (Member& member : stiff.members) member.elements = 1;
   const Constraints constraints = build_constraints(stiff, discretize(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;

@@ -18,7 +18,8 @@ namespace trammel::solver {
 
 /// Balance of all forces [N] and of all moments [N m] on the complete model: the largest residual
 /// and the largest sum of magnitudes over the samples. Single rows of the equation of motion
-/// include the round-off errors of very stiff members. The sums over the complete model do not.
+/// include the round-off errors of very stiff members. The sums over the complete model do not
+/// include these errors.
 struct WholeBalance {
   Vector2d residual = Vector2d::Zero(), terms = Vector2d::Zero();
 
@@ -29,8 +30,9 @@ struct WholeBalance {
 };
 
 /// Computes displacements, reactions, section forces and stresses of the elastic motion with free
-/// coordinates q at the pose of `moving`. They are in equilibrium with inertia and damping. The
-/// stress of a member is the largest at the ends of its elements. Adds the residuals to `balance`.
+/// coordinates q at the pose of `moving`. Reactions and section forces are in equilibrium with
+/// loads, inertia and damping. The stress of a member is the largest stress at the ends of its
+/// elements. Adds the residuals to `balance`.
 [[nodiscard]] StaticSolution postprocess_motion(const MovingSystem& moving,
                                                 const Eigen::VectorXd& q,
                                                 const MovingSystem::Forces& forces,
@@ -47,7 +49,7 @@ std::vector<double> sample_times(const TransientOptions& options) {
   return even_times(options.start, options.end, options.step);
 }
 
-/// Returns a matrix with one sample per row.
+/// Returns a matrix with one sample (3 components) per row.
 Eigen::MatrixX3d stack(const std::vector<Vector3d>& samples) {
   Eigen::MatrixX3d rows(std::ssize(samples), 3);
   for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = samples[to_size(i)];
@@ -99,7 +101,8 @@ class MotionSolver {
     if (!options_.load_history.is_constant()) equation.breakpoints = options_.load_history.time;
     if (options_.gyroscopic) {
       equation.working_motion = [this](double time, const VectorXd& q, const VectorXd& v) {
-        follower_.update_to(time);  // an unreachable pose has already made the load NaN
+        // If the pose is unreachable, the load is already NaN.
+        follower_.update_to(time);
         return follower_.forces(q, v, VectorXd::Zero(q.size())).working;
       };
     }
@@ -111,14 +114,14 @@ class MotionSolver {
     return equation;
   }
 
-  /// Returns the time of the loads of a sample: just before the sample if the load factor jumps
-  /// there.
+  /// Returns the time at which the loads of a sample are evaluated. If the load factor jumps at the
+  /// sample, this time is just before the sample.
   [[nodiscard]] double load_time(double time) const {
     const bool begins = time == options_.time.start;
     return begins ? time : options_.load_history.step_end_load_time(time);
   }
 
-  /// Solves the quasi-static equation K q = F + f at every sample.
+  /// Solves the quasi-static equation K q = T^T F + f at every sample.
   void solve_quasi_statically() {
     VectorXd q;
     const VectorXd still = VectorXd::Zero(moving_.K().rows());
@@ -145,8 +148,8 @@ class MotionSolver {
     solution_.summary.time = sample.time;
   }
 
-  /// Returns the forces f at the current pose as functions of time. The load history scales the
-  /// part of f that the wrench on the platform causes.
+  /// Returns the load f at the current pose as a function of time. The load history scales the part
+  /// of f that the wrench on the platform causes.
   [[nodiscard]] PiecewiseLinearLoad load_in_time(const VectorXd& f) const {
     const LoadHistory& history = options_.load_history;
     if (history.is_constant()) return step_load(f, options_.time.start);
@@ -185,10 +188,11 @@ class MotionSolver {
       const VectorXd q = response.q.col(column), v = response.v.col(column);
       const VectorXd a = response.a.col(column);
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
-      // The work of a variable load would require an integral over time and is not computed.
+      // The work of a variable load would require an integral over time. This work is therefore not
+      // computed.
       energy.work = options_.load_history.is_constant() ? f.dot(q - q0) : kNaN;
-      // Damping has dissipated the difference between the supplied and the current energy. Without
-      // damping, this difference is only round-off error.
+      // Damping has dissipated the difference between the supplied energy and the current energy.
+      // Without damping, this difference is only a round-off error.
       if (follower_.is_damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
@@ -207,9 +211,9 @@ class MotionSolver {
         damping_ratio(options_.damping, 2 * std::numbers::pi * *first);
   }
 
-  /// Computes a quasi-static start with the time derivative T. of the constraint matrix T. It
-  /// solves K q = f - T^T C u., where u. is the velocity of the solution of K q = f. Elastic
-  /// inertia is omitted, because each of its terms depends on the choice of free coordinates.
+  /// Computes a quasi-static start with the time derivative T. of the constraint matrix T. The
+  /// start solves K q = f - T^T C u., where u. is the velocity of the solution of K q = f. Elastic
+  /// inertia is omitted, because each inertia term depends on the choice of free coordinates.
   Outcome start_with_rates(TransientOptions& time, Counters& counters) {
     EquationOfMotion equation = this->equation();
     equation.C = {};
@@ -240,8 +244,9 @@ class MotionSolver {
     return outcome;
   }
 
-  /// Returns true if the computed work depends on the choice of free coordinates. This is the case
-  /// if inextensible links move and the terms of the time derivatives of T are omitted.
+  /// Returns true if the computed work depends on the choice of free coordinates. The work depends
+  /// on the choice if inextensible links move and the terms of the time derivatives of T are
+  /// omitted.
   [[nodiscard]] bool work_depends_on_axes() const {
     return !options_.gyroscopic && !follower_.is_at_rest() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
@@ -273,7 +278,8 @@ class MotionSolver {
   void record(const MotionSample& sample, double load_time) {
     if (!follower_.update_to(load_time)) return;
     const MovingSystem::Forces forces = follower_.forces(sample.q, sample.v, sample.a);
-    if (sample.index < 0) {  // end of a time step: only update the balance
+    // At the end of a time step that is no sample, update only the balance of forces.
+    if (sample.index < 0) {
       static_cast<void>(postprocess_motion(moving_, sample.q, forces, balance_));
       return;
     }
@@ -295,8 +301,8 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Returns the displacement (ux, uy [m], rotation [rad]) of the platform point P without elastic
-  /// inertia and damping.
+  /// Returns the displacement (ux, uy [m], NaN) of the platform point P without elastic inertia and
+  /// damping.
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);
@@ -340,8 +346,8 @@ class MotionSolver {
   double max_angular_velocity_ = 0, max_velocity_ = 0, max_acceleration_ = 0;
 };
 
-/// Returns the rotation that best fits the displacements (ux, uy) of C1, C2 and C3, at the platform
-/// orientation phi [rad].
+/// Returns the rotation that best fits the displacements (ux, uy) of C1, C2 and C3 in the
+/// least-squares sense, at the platform orientation phi [rad].
 double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
                               const Eigen::Matrix<double, 3, 2>& displacement) {
   const auto& C = geometry.platform;
@@ -376,7 +382,8 @@ void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolu
     const TrajectoryPoint& nominal = solution.nominal[to_size(i)];
     const Vector2d deflection = state.displacement.row(kP).head<2>();
     const Vector2d velocity = nominal.velocity.head<2>();
-    const Vector2d along = velocity / velocity.norm();  // NaN at zero velocity
+    // Direction of the nominal velocity; NaN at zero velocity.
+    const Vector2d along = velocity / velocity.norm();
     solution.deflection.row(i) = deflection;
     solution.tangential_error[i] = along.dot(deflection);
     solution.normal_error[i] = cross(along, deflection);
@@ -388,8 +395,8 @@ void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolu
 
 namespace {
 
-/// Returns the end forces of the frame elements. They include the tension of inextensible members,
-/// which is a constraint force.
+/// Returns the end forces of the frame elements. The end forces include the tension of inextensible
+/// members, which is a constraint force.
 Eigen::Matrix<double, 6, Eigen::Dynamic> end_forces(const MovingSystem& moving,
                                                     const MovingSystem::Forces& forces,
                                                     const VectorXd& multipliers) {

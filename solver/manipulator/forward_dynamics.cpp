@@ -20,19 +20,22 @@ namespace trammel::solver {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
-using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
+// Components of the state: pose (3), velocity (3), work of torques and wrench (1).
+using State = Eigen::Matrix<double, 7, 1>;
 
 /// Local error of a time step relative to the tolerance, as defined in ForwardOptions. Odeint
-/// accepts the step if this ratio is at most 1.
+/// accepts the step if the relative error is at most 1.
 struct ErrorNorm {
   double tolerance;
   double duration;  ///< duration of the motion [s]
-  double radius;    ///< platform radius, by which rotations are multiplied [m]
+  /// Platform radius, by which rotations are multiplied for the comparison with translations [m].
+  double radius;
 
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    // Returns the largest pose coordinate (first = 0) or velocity (first = 3) of a state x.
+    // Returns the largest magnitude of the pose coordinates (first = 0) or velocities (first = 3)
+    // in a state x.
     const auto size = [this](const State& x, Index first) {
       return x.segment<3>(first).cwiseProduct(Vector3d(1, 1, radius)).cwiseAbs().maxCoeff();
     };
@@ -66,7 +69,8 @@ class MotionIntegrator {
     if (result.outcome.solved()) add_evidence();
   }
 
-  /// Adds the residuals of equation of motion, loop closure and energy balance at the current time.
+  /// Adds the residuals of the equation of motion and of loop closure at the current time, and
+  /// updates the energy balance.
   void add_evidence() {
     const InverseDynamics now = inverse_dynamics(manipulator_, point(), wrench_);
     const RigidTerms terms = rigid_terms(manipulator_, pose(), y_.segment<3>(3));
@@ -131,7 +135,8 @@ class MotionIntegrator {
     const bool last = t_ + 1.01 * h_ >= end;
     const double tried = last ? end - t_ : h_;
     double h = tried;
-    Outcome stages;  // Runge-Kutta stages; after a singular one they are skipped
+    // Outcome of the Runge-Kutta stages. After a singular stage, the remaining stages are skipped.
+    Outcome stages;
     const auto system = [&](const State& y, State& rate, double t) {
       if (stages.solved()) {
         stages = evaluate(t, y, rate);
@@ -143,7 +148,8 @@ class MotionIntegrator {
       ++result.steps;
       if (side() * side_ < 0) stop(Status::singular, kSingularity);
       if (last) t_ = end;
-      h_ = tried < h_ ? std::max(h_, h) : h;  // a shortened last step does not reduce the next step
+      // A last step that was shortened does not reduce the next step.
+      h_ = tried < h_ ? std::max(h_, h) : h;
       return;
     }
     ++result.rejected;
@@ -157,14 +163,14 @@ class MotionIntegrator {
     }
   }
 
-  /// Returns det J_x, whose sign changes at a parallel singularity. The equations in the actuator
-  /// angles have no solution at the singularity. A time step may jump over the singularity,
-  /// depending on round-off.
+  /// Returns det J_x, whose sign changes at a parallel singularity. The equation of motion in the
+  /// actuator angles has no solution at the singularity. A time step may jump over the singularity,
+  /// depending on round-off errors.
   [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
-      "a parallel (type 2) singularity is passed, where the actuator angles do not determine the "
-      "motion; the rigid bodies themselves could pass it";
+      "a parallel (type 2) singularity was passed, where the actuator angles do not determine the "
+      "motion; real rigid bodies could pass the singularity";
 
   void stop(Status status, const std::string& reason) {
     std::ostringstream why;

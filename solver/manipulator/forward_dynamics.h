@@ -10,7 +10,7 @@
 /// Forward dynamics: motion of the rigid manipulator from actuator torques.
 namespace trammel::solver {
 
-/// Acceleration of the rigid manipulator's platform under actuator torques.
+/// Acceleration of the platform of the rigid manipulator under actuator torques.
 struct PlatformAcceleration {
   Outcome outcome;        ///< singular: the pose is out of reach or singular
   Vector3d acceleration;  ///< (xddot, yddot [m/s^2], phiddot [rad/s^2]); NaN unless solved
@@ -30,9 +30,10 @@ struct PlatformAcceleration {
 
 /// Options of forward dynamics.
 struct ForwardOptions {
-  /// Allowed local error of a time step [-]. Errors of the pose are relative to its largest
-  /// coordinate, or to the platform radius if that is larger. Errors of velocities are relative to
-  /// the largest velocity, or to the platform radius over the duration of the motion.
+  /// Allowed local error of a time step [-]. Errors of the pose are relative to the largest pose
+  /// coordinate, or to the platform radius if the radius is larger. Errors of velocities are
+  /// relative to the largest velocity, or to the platform radius over the duration of the motion if
+  /// this ratio is larger.
   double tolerance = 1e-10;
   Index max_steps = 100000;  ///< limit of the number of time steps, including rejected ones
 };
@@ -40,25 +41,29 @@ struct ForwardOptions {
 /// Motion of the rigid manipulator under actuator torques.
 struct ForwardDynamics {
   /// singular: a pose is out of reach or singular, or a step passes a parallel singularity. The
-  /// reason states the time. not_converged: too many steps, or a residual exceeds its limit.
+  /// reason states the time. not_converged: the number of steps or a residual exceeds its limit.
   Outcome outcome;
-  std::vector<TrajectoryPoint> motion;  ///< at the requested times, until the end or a failure
+  /// Motion at the requested times, up to the last requested time or a failure.
+  std::vector<TrajectoryPoint> motion;
   Index steps = 0;
   Index rejected = 0;
-  Index evaluations = 0;  ///< number of evaluations of the acceleration
-  /// Residuals at the requested times: equation of motion of the actuator angles, loop closure, and
-  /// energy balance. The power of torques and wrench is integrated together with the motion. Its
-  /// integral is compared with the change of kinetic and potential energy.
+  /// Number of evaluations of the platform acceleration.
+  Index evaluations = 0;
+  /// Residuals of three equations at the requested times: equation of motion of the actuator
+  /// angles, loop closure, and energy balance. The power of torques and wrench is integrated
+  /// together with the motion. The integral of the power is compared with the change of kinetic and
+  /// potential energy.
   Evidence evidence;
 };
 
-/// Integrates pose and velocity of the platform over time. These coordinates close the loops
-/// without constraint equations. The method is the embedded Runge-Kutta pair of Dormand and Prince
-/// (1980), order 5(4), with local extrapolation (Boost.Odeint).
+/// Integrates pose and velocity of the platform over time. The joint angles follow from the pose,
+/// so that the loops are closed without constraint equations. The method is the embedded
+/// Runge-Kutta pair of Dormand and Prince (1980), order 5(4), with local extrapolation
+/// (Boost.Odeint).
 /// @param manipulator  rigid bodies of the manipulator.
 /// @param start   pose and velocity at start.time [s].
-/// @param torque  torques of the actuators at a time [N m].
-/// @param times   ascending, not before start.time [s].
+/// @param torque  function that returns the actuator torques at a time [N m].
+/// @param times  ascending times at which the motion is returned, not before start.time [s].
 /// @param wrench  constant load on the platform at P (Fx, Fy [N], moment [N m]).
 /// @param options  error tolerance and limit of the number of time steps.
 /// @throws ModelError  if the times do not ascend or the tolerance is not positive.

@@ -37,14 +37,14 @@ void seed(Dual* x) {
   if (x != nullptr) *x = with_derivative(value(*x), 1);
 }
 
-/// Section, direction and length of a link with their derivatives by one parameter.
+/// Section, direction and length of a link, including their derivatives by one parameter.
 struct SeededLink {
   SectionOf<Dual> section;
   Eigen::Vector2<Dual> direction;
   Dual length;
 };
 
-/// Links and platform of a design with derivatives by one parameter p at a fixed pose. The
+/// Links and platform of a design, including derivatives by one parameter p at a fixed pose. The
 /// properties to which p refers have the derivative 1.
 struct SeededDesign {
   std::array<SeededLink, 6> links;  ///< in the order of the members of the built model
@@ -81,8 +81,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
     const Dual b = with_derivative(g.distal[i], length && parameter.distal[i] ? 1 : 0);
     const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
     const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
-    // The angles of a straight limb change infinitely fast with its link lengths. Other parameters
-    // do not change them.
+    // The angles of a straight limb change infinitely fast with its link lengths. All other
+    // parameters do not change the angles.
     const Eigen::Vector2<Dual> B =
         derivative(a) == 0 && derivative(b) == 0
             ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
@@ -93,8 +93,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
   return seeded;
 }
 
-/// Returns the rows of the modes U for the coordinates of an element. Missing coordinates (-1) have
-/// zeros.
+/// Returns the rows of the modes U for the coordinates of an element. Rows of missing coordinates
+/// (-1) are zero.
 template <std::size_t n>
 Eigen::Matrix<double, static_cast<int>(n), Eigen::Dynamic> gather_modes(
     const std::array<Index, n>& coordinates, const MatrixXd& U) {
@@ -120,8 +120,8 @@ class SetDerivative {
     }
   }
 
-  /// Returns U^T (dK/dp - w^2 dM/dp) U, mode x mode. It is not finite if a limb is straight or
-  /// folded.
+  /// Returns U^T (dK/dp - w^2 dM/dp) U, a matrix mode x mode. The matrix is not finite if p is a
+  /// link length and a limb is straight or folded.
   [[nodiscard]] MatrixXd evaluate(const SeededDesign& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame)
@@ -147,7 +147,7 @@ class SetDerivative {
   }
 
   /// Adds the effect of inextensible elements. Their constraints C u = 0 with multipliers mu depend
-  /// on p, which contributes - mu^T dC/dp u twice.
+  /// on p, which adds - mu^T dC/dp u and the transposed matrix.
   void add_constraints(const SeededDesign& design, MatrixXd& sum) const {
     for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
       const ConstraintRow& row = system_.constraints.rows[r];
@@ -176,8 +176,8 @@ class SetDerivative {
       const auto u = gather_modes(system_.coordinates.node[to_size(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
-    // Deformations are accurate even if they are small compared with the rigid motion of a stiff
-    // plate.
+    // Element deformations are accurate even if they are small compared with the rigid motion of a
+    // stiff plate.
     for_each_plate_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
       const Eigen::MatrixXd strain = B * gather_modes(coordinates, U_);
       sum += stiffness * (strain.transpose() * c.asDiagonal() * strain);
@@ -192,14 +192,16 @@ class SetDerivative {
   const MatrixXd& U_;
   double omega_squared_;
   bool inextensible_ = false;
-  MatrixXd multipliers_;  // constraint row x mode
+  // Lagrange multipliers of the constraints, constraint row x mode.
+  MatrixXd multipliers_;
 };
 
-/// Relative difference below which frequencies are treated as repeated. For a larger difference,
-/// the error of the mode shapes is the round-off error of the modes divided by this difference.
+/// Relative difference up to which frequencies are treated as repeated. For a larger difference,
+/// the error of the mode shapes is about the round-off error of the frequencies divided by this
+/// difference.
 constexpr double kSameFrequency = 1e-7;
 
-/// Computes at least `count` modes, and enough to complete the last set of repeated frequencies.
+/// Computes at least `count` modes, including all modes of the last set of repeated frequencies.
 ModalSolution whole_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
@@ -212,8 +214,8 @@ ModalSolution whole_sets(const System& system, Index count) {
   }
 }
 
-/// Returns the difference between the frequencies of a set and the nearest other frequency. It is
-/// divided by the frequency of the set unless this frequency is zero.
+/// Returns the difference between the frequencies of a set and the nearest frequency outside the
+/// set. The difference is divided by the frequency of the set unless this frequency is zero.
 double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   const double f = frequency[set.first];
   const Index end = set.first + set.count;
@@ -223,8 +225,8 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   return f > 0 ? gap / f : gap;
 }
 
-/// Computes the derivatives of one set of repeated frequencies by every parameter that has an entry
-/// in `designs`. Stores the lowest `shown` derivatives of the set in `result`.
+/// Computes the derivatives of one set of repeated frequencies by every parameter p for which
+/// designs[p] is not empty. Stores the lowest `shown` derivatives of the set in `result`.
 Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
                           Index shown, const std::vector<std::optional<SeededDesign>>& designs,
                           FrequencySensitivity& result) {
@@ -238,7 +240,7 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
     result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
     if (!small.allFinite())
       return {Status::singular,
-              "a limb is straight or folded: its angles, and with them the frequencies, change "
+              "a limb is straight or folded: the limb angles and the frequencies change "
               "infinitely fast with the link lengths"};
     const SymmetricEigenpairs rates = symmetric_eigenpairs(small);
     if (!rates.converged)

@@ -9,8 +9,9 @@
 
 namespace trammel::solver {
 
-/// Parameter of the design or the pose, by which frequencies are differentiated. It may refer to
-/// the same property of several links, which changes by the same amount in all of them.
+/// Parameter of the design or the pose, by which frequencies are differentiated. A parameter may
+/// refer to a property of several links. This property then changes by the same amount in all these
+/// links.
 struct DesignParameter {
   enum class Kind {
     length,
@@ -18,20 +19,23 @@ struct DesignParameter {
     width,
     E,
     density,
-    poisson_ratio,     ///< Poisson's ratio of links and platform
-    base_side,         ///< side A1-A2; the base is scaled about A1
-    platform_side,     ///< side C1-C2; the platform is scaled about P
-    platform_mass,     ///< mass, changed like a printed mass; a printed inertia is unchanged
-    platform_inertia,  ///< inertia about P, changed like a printed one; rigid platform only
-    active_stiffness,  ///< stiffness of the torsion springs at A
-    elbow_stiffness,   ///< stiffness of the torsion springs at B
+    poisson_ratio,  ///< Poisson's ratio of links and platform
+    base_side,      ///< side A1-A2; the base is scaled about A1
+    platform_side,  ///< side C1-C2; the platform is scaled about P
+    /// Mass of the platform; a printed inertia of the platform is not changed.
+    platform_mass,
+    /// Inertia of a rigid platform about P.
+    platform_inertia,
+    active_stiffness,          ///< stiffness of the torsion springs at A
+    elbow_stiffness,           ///< stiffness of the torsion springs at B
     platform_joint_stiffness,  ///< stiffness of the torsion springs at C
     orientation                ///< orientation phi of the platform
   };
   Kind kind = Kind::length;
   std::array<bool, 3> proximal{true, true, true};
   std::array<bool, 3> distal{true, true, true};
-  bool platform = false;  ///< true: includes thickness, E, density or nu of the platform
+  /// true: a parameter thickness, E, density or poisson_ratio also refers to the platform.
+  bool platform = false;
 };
 
 /// Returns true for parameters with exact derivatives by dual numbers: lengths, thickness, width, E
@@ -42,7 +46,8 @@ struct DesignParameter {
 
 namespace detail {
 
-/// Returns the property of a link or platform to which the parameter refers, or null.
+/// Returns the property of a link or platform to which the parameter refers, or null if `part` has
+/// no such property.
 template <class Part>
 [[nodiscard]] auto property(Part& part, DesignParameter::Kind kind) -> decltype(&part.thickness) {
   switch (kind) {
@@ -59,7 +64,8 @@ template <class Part>
   }
 }
 
-/// Returns the property of a link to which the parameter refers, or null.
+/// Returns the property of a link to which the parameter refers, or null if a link has no such
+/// property.
 template <class T>
 [[nodiscard]] T* link_property(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
   return kind == DesignParameter::Kind::width ? &link.width : property(link, kind);
@@ -77,8 +83,9 @@ template <class T>
 // parameters without dual numbers (`has_exact_derivative`) are NaN. The mass of a link follows from
 // its density unless the design contains a printed mass.
 
-/// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of
-/// a subspace. Only the derivatives of all modes of the set together are meaningful.
+/// Set of modes whose frequencies are equal up to round-off errors. The mode shapes are an
+/// arbitrary basis of a subspace. Only the derivatives of all modes of the set together are
+/// meaningful.
 struct FrequencySet {
   Index first = 0;
   Index count = 1;
@@ -96,19 +103,20 @@ struct FrequencySensitivity {
   Evidence evidence;          ///< residuals of the modes
   Eigen::VectorXd frequency;  ///< ascending [Hz]
   /// Derivatives of the frequencies, one row per mode and one column per parameter [Hz / unit of
-  /// the parameter]. For a set of repeated frequencies they are directional derivatives: the
-  /// eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set, ascending. This is the order of the
-  /// frequencies if p increases. Rigid modes have derivative 0.
+  /// the parameter]. For a set of repeated frequencies, the rows contain directional derivatives:
+  /// the ascending eigenvalues of X^T (dK/dp - w^2 dM/dp) X, over 8 pi^2 f, with the modes X of the
+  /// set. This is the order of the frequencies for increasing p. Rigid modes have derivative 0.
   Eigen::MatrixXd derivative;
   std::vector<FrequencySet> sets;
   /// Relative gap of each frequency [-]: its difference from the nearest frequency outside its set,
-  /// divided by the frequency. A small gap g costs about -log10(g) digits of the derivative.
+  /// divided by the frequency. A small gap g reduces the accuracy of the derivative by about
+  /// -log10(g) digits.
   Eigen::VectorXd gap;
   Counters counters;
 };
 
 /// Computes the `count` lowest frequencies and their derivatives. If a set of equal frequencies
-/// continues beyond this number of modes, the lowest derivatives of the set are returned.
+/// continues beyond the mode number `count`, the lowest derivatives of the set are returned.
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencySensitivity frequency_sensitivity(
     const ManipulatorDesign& design, const Pose& pose,

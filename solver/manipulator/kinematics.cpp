@@ -34,8 +34,8 @@ struct LimbAngles {
   T elbow_sine;  ///< absolute value of the sine of the angle at B_i
 };
 
-/// Returns x, or 0 if x is negative. A factor of Heron's formula is slightly negative if round-off
-/// makes a straight limb too short.
+/// Returns x, or 0 if x is negative. Round-off errors can make a factor of Heron's formula slightly
+/// negative if the limb is straight.
 template <Real T>
 T not_negative(const T& x) {
   return value(x) > 0 ? x : T(0);
@@ -61,7 +61,7 @@ T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
-/// Returns the reason why limb i cannot reach the platform, or an empty text if it can.
+/// Returns the reason why limb i cannot reach the platform, or an empty text if the limb can.
 std::string out_of_reach(std::size_t i, double a, double b, double r) {
   const double roundoff = 4 * kEps * (a + b + r), beyond = r - (a + b),
                within = std::abs(a - b) - r;
@@ -69,7 +69,7 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   std::ostringstream why;
   why << "limb " << i + 1 << " (A" << i + 1 << "-B" << i + 1 << "-C" << i + 1 << ")";
   if (beyond <= roundoff && within <= roundoff) {
-    why << " has C on A, so that the direction of its equal links is undetermined";
+    why << " has C at A and equal links: the direction of the links is undetermined";
   } else {
     why << " cannot reach: C is " << r << " m from A, " << std::max(beyond, within)
         << (beyond > roundoff ? " m beyond the sum of its link lengths"
@@ -78,7 +78,8 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   return why.str();
 }
 
-/// Returns J_x without units: rows divided by distal lengths, rotation column by platform radius.
+/// Returns J_x without units: the rows are divided by the distal lengths, and the rotation column
+/// by the platform radius.
 Matrix3d scaled(const Jacobians& j) {
   Matrix3d s = j.parallel;
   s.col(2) /= j.platform_radius;
@@ -173,8 +174,12 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
   ForwardKinematics result{.outcome = {}, .pose = start};
   double last = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
-    Matrix3d J;         // J_x, rows divided by distal lengths, rotation column by `size`
-    Vector3d residual;  // length errors (|d|^2 - b^2) / 2b, |d| - b to first order [m]
+    // Jacobian matrix J_x. Rows are divided by the distal lengths, and the rotation column by
+    // `size`.
+    Matrix3d J;
+    // Length errors (|d|^2 - b^2) / 2b [m] of the distal lengths b, which are |d| - b to first
+    // order.
+    Vector3d residual;
     result.closure_error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);

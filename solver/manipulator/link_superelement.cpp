@@ -11,7 +11,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Chain of the equal elements of a member, with (u v θ) at its n + 1 nodes.
+/// Chain of the equal elements of a member, with the coordinates (u v θ) at each of its n + 1
+/// nodes.
 struct ElementChain {
   Index elements;
   FrameDeformation B;
@@ -23,8 +24,9 @@ struct ElementChain {
     for (Index e = 0; e < elements; ++e) F.middleRows<6>(3 * e) += m * U.middleRows<6>(3 * e);
     return F;
   }
-  /// Returns U^T K U for the motions in the columns of U, with the stiffness K of the chain. It is
-  /// computed from the deformations of the elements, which are accurate for long-wave modes.
+  /// Returns U^T K U for the motions in the columns of U, where K is the stiffness matrix of the
+  /// chain. The product is computed from the deformations of the elements, which are accurate for
+  /// long-wave modes.
   [[nodiscard]] MatrixXd projected_stiffness(const MatrixXd& U) const {
     MatrixXd D(3 * elements, U.cols());
     for (Index e = 0; e < elements; ++e)
@@ -33,7 +35,8 @@ struct ElementChain {
   }
 };
 
-/// Returns motions of all nodes, one per column, that are zero except at the given coordinates.
+/// Returns motions of all nodes, one per column, with the given values at the given coordinates and
+/// zero elsewhere.
 MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
   MatrixXd U = MatrixXd::Zero(size, values.cols());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -42,9 +45,9 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
 }
 
 /// Returns the modes X of the given coordinates as motions of all nodes, with all other coordinates
-/// fixed. They satisfy X^T K X = I and are in descending order of the period. Bending and axial
-/// modes are uncoupled. They are computed separately, so that the couplings between them remain
-/// exactly zero.
+/// fixed. The modes satisfy X^T K X = I and are in descending order of the period. Bending and
+/// axial modes are computed in separate calls, so that the couplings between bending and axial
+/// modes are exactly zero.
 MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
@@ -78,8 +81,8 @@ LinkSuperelement condense_member(const Member& member, double length) {
                      frame_deformation_stiffness(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
   if (!member.axially_flexible) chain.c[0] = 0;
-  // The static response of the interior of a prismatic member equals the interpolation of one
-  // element.
+  // The static response of the interior of a prismatic member equals the interpolation of a single
+  // element with the length of the member.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
   for (Index k = 0; k <= n; ++k)

@@ -32,14 +32,16 @@ double platform_area(const std::array<Vector2d, 3>& c) {
   return std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
 }
 
-/// Returns false if the corners C_i are collinear: the area of their triangle is only round-off.
+/// Returns false if the corners C_i are collinear, so that the area of their triangle is only a
+/// round-off error.
 bool has_area(const std::array<Vector2d, 3>& c) {
   const double size = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
   return platform_area(c) > 1e-12 * size * size;
 }
 
-/// Sets the connection between a link end and its node according to the type of the joint. It is a
-/// spring for `sprung`, a weld for the type `rigid`, or a hinge otherwise.
+/// Sets the connection between a link end and its node according to the type of the joint. The
+/// connection is a spring for `sprung`, a weld for the type `rigid`, and a hinge for all other
+/// types.
 template <class Kind>
 void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
   if (joint.kind == Kind::sprung) {
@@ -123,13 +125,14 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
   model.constraints.push_back(std::move(eq25));
 }
 
-/// Adds the constraints of a pin to the plate nodes i within its radius, u_pin = sum w_i u_i in x
-/// and y.
+/// Adds two constraints, in x and y, between a pin and the plate nodes i within the pin radius:
+///
+///   u_pin = sum w_i u_i.
 void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
              Model& model) {
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
-  // The link at C couples all n nodes within the pin, which adds n^2 entries to the stiffness
-  // matrix. P carries only loads, so that the pin at P needs no limit.
+  // The distal link at C couples all n mesh nodes of the pin, which adds n^2 entries to the
+  // stiffness matrix. P is connected to no link, so that the pin at P needs no limit.
   constexpr std::size_t kMaxNodes = 500;
   require(pin == kP || weights.size() <= kMaxNodes,
           "the pin at C" + std::to_string(pin - kC + 1) + " covers " +

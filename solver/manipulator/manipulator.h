@@ -13,7 +13,8 @@
 /// Varalakshmi & Srinivas (2017) do not specify these options.
 namespace trammel::solver {
 
-/// Joint of the manipulator: its type and its stiffness. Only the type `sprung` uses the stiffness.
+/// Type of a joint of the manipulator and stiffness of its torsion spring. Only the type `sprung`
+/// uses the stiffness.
 template <class Kind>
 struct Joint {
   Kind kind{};
@@ -28,34 +29,34 @@ enum class ActiveKind { locked, free, sprung };
 enum class ElbowKind { welded, hinged, sprung };
 /// Type of the joint at C_i, between distal link and platform. hinged: only the displacements of
 /// link and platform are equal (Varalakshmi & Srinivas 2017, Eq. 24). eq25_*: hinged, and Eq. 25 of
-/// this paper sets the platform rotation zeta. It is the mean (eq25_mean) or, as printed, the sum
-/// (eq25_sum) of the rotations of the three link ends. Eq. 25 is one equation for all three joints,
-/// which then have the same type. All types except `hinged` require a rigid platform, because a
-/// node of triangles has no rotation.
+/// this paper sets the platform rotation zeta. zeta is the mean (eq25_mean) or, as printed, the sum
+/// (eq25_sum) of the rotations of the three link ends. With Eq. 25, all three joints must have the
+/// same type. All types except `hinged` require a rigid platform, because a node of an elastic
+/// platform has no rotation.
 enum class PlatformJointKind { hinged, welded, sprung, eq25_mean, eq25_sum };
 
 using ActiveJoint = Joint<ActiveKind>;
 using ElbowJoint = Joint<ElbowKind>;
 using PlatformJoint = Joint<PlatformJointKind>;
 
-/// Straight link of rectangular section. With T = Dual (numbers.h), each property also carries its
+/// Straight link of rectangular section. With T = Dual (numbers.h), each property includes its
 /// derivative with respect to one parameter.
 template <class T>
 struct LinkDesignOf {
   T thickness = T(0);  ///< depth of the section, in the plane of motion [m]
   T width = T(0);      ///< width of the section, perpendicular to the plane of motion [m]
   MaterialOf<T> material;
-  double shear_coefficient = 5.0 / 6.0;  ///< used by theories with shear deformation
+  double shear_coefficient = 5.0 / 6.0;  ///< for beam theories with shear deformation
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass_matrix = MassMatrix::consistent;
   Index elements = 4;
   bool axially_flexible = true;
-  /// Given total mass (a value printed in a paper, "printed mass"), distributed over the length
+  /// Total mass of the link as printed in a paper ("printed mass"), distributed over the length
   /// [kg]. If empty, the mass follows from the density.
   std::optional<double> mass;
-  /// Given inertia J of the link (a value printed in a paper) [kg m^2]. J/2 rotates with each end
-  /// of the link for any number of elements, in addition to the inertia of the distributed mass. If
-  /// empty, only the distributed mass has inertia.
+  /// Inertia J of the link as printed in a paper [kg m^2]. A rotary inertia J/2 is added at each
+  /// end of the link, for any number of elements. The distributed mass has its inertia in addition.
+  /// If J is empty, only the distributed mass has inertia.
   std::optional<double> inertia;
 };
 using LinkDesign = LinkDesignOf<double>;
@@ -73,19 +74,19 @@ struct PlatformDesignOf {
   /// Number of refinements of a platform of triangles. The mesh without refinement has the
   /// triangles C1 C2 P, C2 C3 P and C3 C1 P. Each refinement splits every triangle into four.
   int refinements = 0;
-  bool six_nodes = false;  ///< true: a platform of triangles has six nodes per triangle
-  /// Radius of the pins at P and C_i, for a platform that is a mesh of triangles [m]. If it is
-  /// positive, P and C_i are not nodes of the mesh. The displacement of a pin is a weighted mean of
-  /// the displacements of the nodes within this radius (`pin_weights`). The response to a force on
-  /// a pin therefore converges under mesh refinement. A pin at C_i may contain at most 500 mesh
-  /// nodes, because its link couples all of them.
+  /// true: a platform meshed by triangles has six nodes per triangle; false: three.
+  bool six_nodes = false;
+  /// Radius of the pins at P and C_i in a platform that is meshed by triangles [m]. If the radius
+  /// is positive, P and C_i are not nodes of the mesh. The displacement of a pin is then a weighted
+  /// mean of the displacements of the mesh nodes within this radius (`pin_weights`). The response
+  /// to a force on a pin therefore converges under mesh refinement. A pin at C_i may contain at
+  /// most 500 mesh nodes, because the distal link couples all nodes of the pin.
   double pin_radius = 0;
-  /// Given mass of the platform (a value printed in a paper) [kg], which replaces the density. If
-  /// empty, the mass follows from the density.
+  /// Mass of the platform as printed in a paper [kg]. If empty, the mass follows from the density.
   std::optional<double> mass;
-  /// Given inertia of a rigid platform about P (a value printed in a paper) [kg m^2]. If empty, it
-  /// is the inertia of the uniform triangle C1 C2 C3 with the mass of the platform. In both cases
-  /// the center of mass is the centroid of this triangle, for any position of P.
+  /// Inertia of a rigid platform about P as printed in a paper [kg m^2]. If empty, the inertia is
+  /// that of the uniform triangle C1 C2 C3 with the mass of the platform. In both cases the center
+  /// of mass is the centroid of this triangle, for any position of P.
   std::optional<double> inertia;
 };
 using PlatformDesign = PlatformDesignOf<double>;
@@ -100,7 +101,7 @@ struct ManipulatorDesign {
   std::array<PlatformJoint, 3> platform_joint;
 };
 
-/// Mass properties of the platform: those of the uniform triangle C1 C2 C3, or the printed values.
+/// Mass properties of the platform, from the uniform triangle C1 C2 C3 or from printed values.
 template <class T>
 struct PlatformMassOf {
   T mass = T(0);                       ///< [kg]
@@ -111,13 +112,14 @@ using PlatformMass = PlatformMassOf<double>;
 
 /// Returns the mass properties of the platform.
 /// @param platform  design of the platform.
-/// @param vertices  C1, C2, C3 relative to P in platform axes [m].
-/// @throws ModelError  if the triangle C1 C2 C3 has no area and no mass is printed. Also if the
-///   printed inertia is less than the mass times the squared distance of the center of mass from P.
+/// @param vertices  positions of C1, C2, C3 relative to P in platform axes [m].
+/// @throws ModelError  if the triangle C1 C2 C3 has no area and the design contains no mass. Also
+///   if the given inertia is less than the mass times the squared distance of the center of mass
+///   from P.
 template <Real T>
 [[nodiscard]] PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
                                               const std::array<Vector2d, 3>& vertices);
-/// Returns the mass properties of the platform of a design.
+/// Returns the mass properties of the platform of a manipulator design.
 [[nodiscard]] PlatformMass platform_mass(const ManipulatorDesign& design);
 /// Returns the properties of the cross-section of a link of the given length [m].
 /// @throws ModelError  if a dimension or a material constant of the link is invalid.
@@ -125,19 +127,20 @@ template <Real T>
 [[nodiscard]] SectionOf<T> link_section(const LinkDesignOf<T>& link,
                                         const std::type_identity_t<T>& length);
 
-/// Builds the planar model of the manipulator at a pose, without loads and gravity. It contains:
+/// Builds the planar model of the manipulator at a pose, without loads and without gravity. The
+/// model contains:
 ///
 /// - nodes "A1".."A3", "B1".., "C1".., "P", then the other nodes of the plate;
 /// - members "A1-B1".., "B1-C1"..;
 /// - supports "A1".."A3";
 /// - rigid body or plate "platform";
-/// - constraints "eq25" or "pin P x"...
+/// - constraint "eq25" (Eq. 25), or constraints "pin P x".. of the pins in the platform.
 ///
 /// @throws ModelError  if the pose is out of reach or a combination of options is invalid.
 [[nodiscard]] Model build_manipulator(const ManipulatorDesign& design, const Pose& pose);
 
-/// Returns the design without the physical effects that are missing in `active`: springs become
-/// rigid joints, for example, and a plate becomes a rigid body.
+/// Returns the design without the physical effects that are missing in `active`. For example,
+/// springs become rigid joints, and an elastic platform becomes a rigid body.
 [[nodiscard]] ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active);
 
 }  // namespace trammel::solver

@@ -18,7 +18,7 @@ constexpr double kLargestT = 1e4;
 constexpr double kVanishing = 1e-11;
 
 /// Returns the motion of the member or rigid body whose rotation changes the coefficients of a
-/// constraint row, or null.
+/// constraint row, or null if the coefficients are constant.
 const PartMotion* part_of(const System& start, const ConstraintRow& row,
                           const NominalMotion& motion) {
   if (row.source == ConstraintRow::Source::inextensible)
@@ -28,7 +28,8 @@ const PartMotion* part_of(const System& start, const ConstraintRow& row,
   return nullptr;
 }
 
-/// Returns the coefficient of a term in a constraint row (order 0), or its time derivative (1, 2).
+/// Returns the coefficient of a term in a constraint row (order 0), or its first or second time
+/// derivative (order 1, 2).
 double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
@@ -64,7 +65,7 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
   extend_pattern(start, motion);
 }
 
-/// Selects the constraint rows from which the matrix T in u = T q is computed.
+/// Selects the constraint rows that determine the matrix T in u = T q.
 void MovingConstraints::find_eliminating_rows() {
   dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
@@ -88,9 +89,9 @@ void MovingConstraints::find_eliminating_rows() {
 }
 
 /// Extends the sparsity pattern of the matrix T in u = T q by all entries that are nonzero at any
-/// pose. The entries are found numerically at three arbitrary rotations of members and bodies. The
-/// pattern of C alone would lead to more entries. Each node of an inextensible member would then
-/// depend on all preceding nodes, whose contributions cancel.
+/// pose. These entries are found numerically at three arbitrary rotations of members and bodies.
+/// The pattern of C alone would give more entries than necessary: each node of an inextensible
+/// member would depend on all preceding nodes, although their contributions cancel.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
@@ -119,8 +120,8 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-/// Returns the product of C (order 0) or its time derivative (1, 2) and a matrix with one row per
-/// coordinate. Only the rows of C in dependent_rows_ are included.
+/// Returns the product of C (order 0) or its first or second time derivative (order 1, 2) and a
+/// matrix with one row per coordinate. Only the rows of C in dependent_rows_ are included.
 MatrixXd MovingConstraints::derivative_times(const System& start, const NominalMotion& motion,
                                              int order, const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
@@ -135,7 +136,8 @@ MatrixXd MovingConstraints::derivative_times(const System& start, const NominalM
   return sum;
 }
 
-/// Returns X of C_p X = - C_f, which expresses the eliminated coordinates (rows) by the free ones.
+/// Returns X from C_p X = - C_f. X expresses the eliminated coordinates (rows) by the free
+/// coordinates (columns).
 MatrixXd MovingConstraints::dependent_coordinate_matrix(const System& start,
                                                         const NominalMotion& motion) {
   pivots_.compute(derivative_times(start, motion, 0, select_dependent_));

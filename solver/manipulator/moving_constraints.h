@@ -10,13 +10,13 @@
 namespace trammel::solver {
 
 /// Constraints C u = 0 of a moving manipulator, expressed as u = T q with free coordinates q, and
-/// the time derivatives of T. At every pose C T = 0. The eliminated coordinates are those of the
-/// start pose. A dot denotes the time derivative:
+/// the time derivatives of T. C T = 0 at every pose. The same coordinates are eliminated at every
+/// pose. A dot denotes the time derivative:
 ///
 ///   C_p X = - C_f,   C_p X. = - C. T,   C_p X.. = - C.. T - 2 C. T.
 ///
-/// X is the part of T that expresses eliminated coordinates (columns p of C) by free ones (columns
-/// f).
+/// X is the part of T that expresses eliminated coordinates (columns p of C) by free coordinates
+/// (columns f of C).
 class MovingConstraints {
  public:
   /// Finds the sparsity pattern of the matrix T in u = T q. `start` is the system at the pose at
@@ -25,18 +25,19 @@ class MovingConstraints {
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
   /// Computes the matrix T in u = T q for the nominal motion `to`. `from` is the nominal motion for
-  /// which T was computed last. T is kept if all members and bodies have the same motion in both.
-  /// The outcome is singular if the constraints do not determine the eliminated coordinates at the
-  /// pose of `to`. T is then also kept. `start` is the system at the pose at which it was built.
+  /// which T was computed last. T is unchanged if all members and bodies have equal motions in
+  /// `from` and `to`. The outcome is singular if the constraints do not determine the eliminated
+  /// coordinates at the pose of `to`. T is then also unchanged. `start` is the system at the pose
+  /// at which it was built.
   [[nodiscard]] Outcome update_transformation(const System& start, const NominalMotion& from,
                                               const NominalMotion& to);
 
-  /// Returns the constraints at the current pose. T stores all entries that are nonzero at any
-  /// pose.
+  /// Returns the constraints at the current pose. The sparsity pattern of T includes all entries
+  /// that are nonzero at any pose.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] const RowMajorMatrix& T() const { return constraints_.T; }
-  /// Return the first and second time derivatives of the matrix T in u = T q. They are empty if T
-  /// is the same at every pose.
+  /// Returns the first (T_dot) or second (T_ddot) time derivative of the matrix T in u = T q. The
+  /// derivative is empty if T is the same at every pose.
   [[nodiscard]] const RowMajorMatrix& T_dot() const { return T_dot_; }
   [[nodiscard]] const RowMajorMatrix& T_ddot() const { return T_ddot_; }
   [[nodiscard]] bool is_pose_dependent() const {
@@ -55,10 +56,12 @@ class MovingConstraints {
   Constraints constraints_;
   bool derivatives_, variable_ = false;
   RowMajorMatrix T_dot_, T_ddot_;
-  std::vector<std::size_t> dependent_rows_;  // rows of C that eliminate a coordinate, no supports
-  std::vector<Index> dependent_row_of_;      // index in dependent_rows_ for each coordinate, or -1
+  // Indices of the rows of C that eliminate a coordinate, except rows of supports.
+  std::vector<std::size_t> dependent_rows_;
+  // Index in dependent_rows_ for each coordinate u, or -1 for coordinates without such a row.
+  std::vector<Index> dependent_row_of_;
   // Matrices of zeros and ones that select the free coordinates (u x q) and the eliminated
-  // coordinates (u x row) among the coordinates u.
+  // coordinates (u x row) from all coordinates u.
   RowMajorMatrix select_free_, select_dependent_;
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };

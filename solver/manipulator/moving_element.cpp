@@ -68,7 +68,8 @@ const Eigen::Matrix3d& generator() {
 /// the interpolation of an element and W = R N R6^T the interpolation in world axes. R rotates a
 /// vector (x, y, rotation) by the angle of the element, and R6 contains R for both nodes. J is
 /// dR/dangle R^-1, and J6 contains J for both nodes. X = J N - N J6 is the derivative of W with
-/// respect to the angle at R = I. The weights are rho times (1, 1, radius of gyration squared).
+/// respect to the angle at R = I. The weights are rho times (1, 1, radius of gyration squared),
+/// times the length of the integration point.
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
   Matrix6d J6 = Matrix6d::Zero();
@@ -89,7 +90,8 @@ MovingElement frame_element(const FrameElement& e, const Member& member) {
   if (!member.axially_flexible) element.c[0] = 0;
   element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                          : frame_mass(e.section, member.theory, member.mass, e.length);
-  // Bars and lumped masses have an isotropic interpolation, which does not change under rotation.
+  // Bars and lumped masses have an isotropic interpolation, which is equal in rotated and world
+  // axes.
   if (e.is_bar() || member.mass == MassMatrix::lumped) return element;
   const double phi = shear_ratio(e.section, member.theory, e.length);
   const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
@@ -115,7 +117,8 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     const TriangleStiffness<3> k = triangle_stiffness(points, plate);
     element.B = k.B;
     element.c = k.c;
-    element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
+    // The interpolation of triangles is isotropic: W does not depend on the rotation.
+    element.m = triangle_mass(points, plate);
     elements.push_back(element);
   }
 }

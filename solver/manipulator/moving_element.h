@@ -12,29 +12,33 @@
 /// Nominal rigid motion of each member, plate and rigid body of a manipulator along its path.
 namespace trammel::solver {
 
-/// Rotation of a member, plate or rigid body since the pose at which the model was built.
+/// Rotation of a member, plate or rigid body relative to the pose at which the model was built.
 struct PartMotion {
-  double angle = 0;         ///< [rad]
-  double rate = 0;          ///< [rad/s]
-  double acceleration = 0;  ///< [rad/s^2]
+  /// Rotation angle [rad].
+  double angle = 0;
+  /// Angular velocity [rad/s].
+  double rate = 0;
+  /// Angular acceleration [rad/s^2].
+  double acceleration = 0;
 
   bool operator==(const PartMotion&) const = default;
-  /// Returns a vector that rotates with the member, plate or rigid body (order 0), or the time
-  /// derivative of this vector (order 1, 2). The vector is `at_start` at the pose at which the
-  /// model was built.
+  /// Returns a vector that rotates with the member, plate or rigid body (order 0), or its first or
+  /// second time derivative (order 1, 2). At the pose at which the model was built, the vector is
+  /// `at_start`.
   [[nodiscard]] Vector2d rotated_derivative(const Vector2d& at_start, int order) const;
 };
 
-/// Nominal motion: every member, plate and rigid body of a model moves as a rigid part.
+/// Nominal motion of a manipulator: every member, plate and rigid body of the model moves rigidly.
 struct NominalMotion {
-  /// Positions, velocities and accelerations of the model nodes, one row (x, y) per node [m],
-  /// [m/s], [m/s^2].
+  /// Positions [m], velocities [m/s] and accelerations [m/s^2] of the model nodes, one row (x, y)
+  /// per node.
   std::array<Eigen::MatrixX2d, 3> node;
-  std::vector<PartMotion> part;         ///< members, then plates, then rigid bodies
+  std::vector<PartMotion> part;         ///< rotations of members, then plates, then rigid bodies
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
   double load_factor = 1;               ///< factor on the loads of the model
 
-  /// Returns the motion of the link or platform whose rotation equals that of a model node.
+  /// Returns the motion of the link or platform with which a model node rotates: the proximal link
+  /// for A_i and B_i, and the platform for all other nodes.
   [[nodiscard]] const PartMotion& part_motion_at_node(Index model_node) const {
     return model_node < 6 ? part[to_size(2 * (model_node % 3))] : part.back();
   }
@@ -49,12 +53,13 @@ struct NominalMotion {
   return plate_part_index(model, std::ssize(model.plates)) + body;
 }
 
-/// Computes the nominal motion of every part of the model from that of the platform.
-/// @param model  model, built at the joint coordinates `from`.
-/// @param motion  inverse dynamics for the motion `point`.
-/// @param from  joint coordinates (theta_a, theta_p, x, y, phi).
+/// Computes the nominal motion of every member, plate and rigid body from the motion of the
+/// platform.
+/// @param model  model that was built at the joint coordinates `from`.
+/// @param motion  inverse dynamics for the platform motion `point`.
+/// @param from  joint coordinates (theta_a, theta_p, x, y, phi) [rad, m].
 /// @param point  motion of the platform.
-/// @param gravity  [m/s^2].
+/// @param gravity  acceleration of gravity [m/s^2].
 [[nodiscard]] NominalMotion nominal_motion(const Model& model, const InverseDynamics& motion,
                                            const Vector9d& from, const TrajectoryPoint& point,
                                            const Vector2d& gravity);
@@ -62,8 +67,7 @@ struct NominalMotion {
 /// Returns the largest angular velocity of all members, plates and rigid bodies [rad/s].
 [[nodiscard]] double largest_angular_velocity(const NominalMotion& motion);
 
-/// Rotates the pair (x, y) of columns that starts at column i by the angle with cosine c and sine
-/// s.
+/// Rotates the vectors (x, y) in the columns i and i + 1 by the angle with cosine c and sine s.
 template <class Block>
 void rotate_adjacent_columns(Block& v, Index i, double c, double s) {
   const auto x = (c * v.col(i) - s * v.col(i + 1)).eval();
@@ -71,10 +75,11 @@ void rotate_adjacent_columns(Block& v, Index i, double c, double s) {
   v.col(i) = x;
 }
 
-/// Element that rotates with a member, plate or rigid body. Its matrices are constant in element
-/// axes.
+/// Element that rotates with a member, plate or rigid body. The element matrices are constant in
+/// element axes.
 struct MovingElement {
-  enum class Layout { frame, triangle, point_mass, scalar };  ///< arrangement of the coordinates
+  /// Arrangement of the coordinates in element matrices.
+  enum class Layout { frame, triangle, point_mass, scalar };
 
   Layout layout = Layout::frame;
   std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
@@ -82,29 +87,31 @@ struct MovingElement {
   Vector3d c = Vector3d::Zero();                  ///< rigidities of the three deformations
   Matrix6d k = Matrix6d::Zero();                  ///< stiffness, B^T diag(c) B
   Matrix6d m = Matrix6d::Zero();
-  Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle of a rotating element
-  Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2 of a rotating element
-  /// Element x axis at the pose at which the model was built, world axes.
+  /// Integral of rho W^T dW/dangle in element axes. W is the interpolation in world axes.
+  Matrix6d first_derivative = Matrix6d::Zero();
+  /// Integral of rho W^T d2W/dangle2 in element axes. W is the interpolation in world axes.
+  Matrix6d second_derivative = Matrix6d::Zero();
+  /// Direction of the element x axis at the pose at which the model was built, world axes.
   Vector2d axis = Vector2d::UnitX();
-  Index part = -1;                           ///< index in NominalMotion::part; -1: does not turn
+  Index part = -1;                           ///< index in NominalMotion::part; -1: no rotation
   Vector2d first_moment = Vector2d::Zero();  ///< mass * offset of a point mass [kg m]
 
   [[nodiscard]] PartMotion part_motion(const NominalMotion& nominal) const {
     return part < 0 ? PartMotion{} : nominal.part[to_size(part)];
   }
-  /// Returns the element x axis during a motion, world axes.
+  /// Returns the direction of the element x axis at the pose of `nominal`, world axes.
   [[nodiscard]] Vector2d axis_direction(const NominalMotion& nominal) const;
   /// Returns the number of coordinates per node.
   [[nodiscard]] Index coordinates_per_node() const { return layout == Layout::triangle ? 2 : 3; }
 
-  /// Rotates the columns of a block (any x 6), one per coordinate, from element axes to world axes.
+  /// Rotates a block with 6 columns, one per coordinate, from element axes to world axes.
   template <class Block>
   void to_world(Block& v, const Vector2d& direction) const {
     if (layout == Layout::scalar) return;
     for (Index i = 0; i + 1 < 6; i += coordinates_per_node())
       rotate_adjacent_columns(v, i, direction.x(), direction.y());
   }
-  /// Rotates the columns of a block from world axes to element axes.
+  /// Rotates a block with 6 columns, one per coordinate, from world axes to element axes.
   template <class Block>
   void to_element_axes(Block& v, const Vector2d& direction) const {
     to_world(v, Vector2d(direction.x(), -direction.y()));
@@ -114,9 +121,9 @@ struct MovingElement {
 };
 
 /// Returns the moving elements of a model: frame elements in the order of the mesh, then triangles,
-/// point masses, rotary inertias of member ends, and springs. The mass matrices of condensed
-/// members (`links`, may be empty) replace those of the frame elements.
-/// @throws ModelError  for six-node triangles.
+/// point masses, rotary inertias of member ends, and springs. If `links` is not empty, the mass
+/// matrices of the condensed members `links` replace the mass matrices of the frame elements.
+/// @throws ModelError  if the model contains six-node triangles.
 [[nodiscard]] std::vector<MovingElement> moving_elements(
     const System& system, const std::vector<LinkSuperelement>& links);
 

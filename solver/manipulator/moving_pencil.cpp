@@ -186,9 +186,10 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Computes the backward error of modes row by row. Coordinates that may be only round-off errors
-/// count with a larger minimum size (dense_eigen.h). The residuals of interior modes are divided by
-/// the square root of the strain energy.
+/// Computes the backward error of each mode as the largest ratio of a residual to the magnitudes of
+/// its terms. Joint coordinates that may be only round-off errors have a larger minimum magnitude
+/// (dense_eigen.h). The residuals of interior modes are divided by the square root of the strain
+/// energy.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                     Workspace<rows>& space, ModeMeasures<rows>& measures) const {
@@ -211,7 +212,8 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
     }
     measures.backward_error = measures.backward_error.max(sum.abs() / terms);
   }
-  const Numbers size = measures.strain.sqrt();  // interior modes have stiffness 1
+  // Scale of the residuals of interior modes, which have stiffness 1.
+  const Numbers size = measures.strain.sqrt();
   for (Index j = 0; j < interior_mode_count(); ++j) {
     const Numbers force = w2 * MX.inside.col(j).array();
     measures.backward_error =

@@ -8,21 +8,22 @@
 namespace trammel::solver {
 
 /// LDL^T factorization of a small symmetric matrix without row exchanges. The matrix is scaled to a
-/// unit diagonal. The storage is dense, and zeros are skipped. Repeated factorizations of the same
-/// size do not allocate memory.
+/// unit diagonal. The storage is dense, and multiplications by zero are skipped. Repeated
+/// factorizations of matrices of the same size do not allocate memory.
 class DenseLdlt {
  public:
   /// Factorizes A, of which only the lower triangle is read. Returns false if a pivot is zero or
-  /// not finite. The factorization is then invalid.
+  /// not finite; the factorization is then invalid.
   [[nodiscard]] bool compute(const Eigen::MatrixXd& A);
 
-  /// Returns the smallest pivot of the scaled matrix. It is at most 1. For a positive definite
-  /// matrix it is at least the smallest eigenvalue.
+  /// Returns the smallest pivot of the scaled matrix, which is at most 1. For a positive definite
+  /// matrix, the smallest pivot is at least the smallest eigenvalue.
   [[nodiscard]] double smallest_pivot() const { return pivots_.minCoeff(); }
-  /// Returns the number of negative eigenvalues of A (Sylvester's law of inertia).
+  /// Returns the number of negative pivots, which equals the number of negative eigenvalues of A
+  /// (Sylvester's law of inertia).
   [[nodiscard]] Index negative_pivots() const { return (pivots_.array() < 0).count(); }
-  /// Returns the largest magnitude of an entry of the factor L. If it exceeds 1e8, the signs of
-  /// pivots are unreliable.
+  /// Returns the largest magnitude of an entry of the factor L. If this magnitude exceeds 1e8, the
+  /// signs of the pivots are unreliable.
   [[nodiscard]] double element_growth() const { return growth_; }
 
   /// Solves A x = b for several right-hand sides b, one per row of X.
@@ -51,15 +52,16 @@ class DenseLdlt {
 };
 
 /// Several vectors in the coordinates of a MovingPencil, one vector per row. The number of rows is
-/// known at compile time, so that each operation is applied to all rows at once.
+/// known at compile time, so that each operation processes all vectors at once.
 template <int rows>
 struct VectorBlock {
-  Eigen::Matrix<double, rows, Eigen::Dynamic> ends;  ///< free coordinates of the joints
+  /// Components of the free joint coordinates.
+  Eigen::Matrix<double, rows, Eigen::Dynamic> ends;
   /// Amplitudes of the modes of the link interiors, link by link.
   Eigen::Matrix<double, rows, Eigen::Dynamic> inside;
 };
 
-/// Temporary matrices, kept to avoid memory allocation in each step of an iteration.
+/// Temporary matrices that are reused in each step of an iteration to avoid memory allocation.
 template <int rows>
 struct Workspace {
   Eigen::Matrix<double, rows, Eigen::Dynamic> U, sizes;
@@ -78,12 +80,13 @@ struct ModeMeasures {
 };
 
 /// Stiffness matrix K and mass matrix M of a manipulator with condensed links as functions of its
-/// pose. The coordinates are one or two dozen joint coordinates and the amplitudes of the modes of
-/// the link interiors. Each mode has stiffness 1, and only M couples modes and joint coordinates.
+/// pose. The coordinates are usually one or two dozen joint coordinates and the amplitudes of the
+/// modes of the link interiors. Each interior mode has stiffness 1, and only M couples interior
+/// modes and joint coordinates.
 class MovingPencil {
  public:
-  /// Builds K and M from a model at the pose `pose`. Inactive effects must have been removed from
-  /// the model. The number of interior modes of a link follows from its number of elements.
+  /// Builds K and M from a model at the pose `pose`. The model must not contain inactive effects.
+  /// The number of interior modes of a link follows from its number of elements.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
   /// Computes the stiffness matrix K and the mass matrix M at a pose. The outcome is singular if
@@ -92,24 +95,25 @@ class MovingPencil {
 
   [[nodiscard]] Index joint_coordinate_count() const { return K_.rows(); }
   [[nodiscard]] Index interior_mode_count() const { return mu_.size(); }
-  /// Returns the number of free coordinates without condensation, including massless interior
-  /// coordinates.
+  /// Returns the number of free coordinates of the model without condensation, including massless
+  /// interior coordinates.
   [[nodiscard]] Index free_coordinate_count() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
-  [[nodiscard]] double largest_coupling() const { return coupling_; }  ///< of the modes of links
+  /// Returns the largest neglected coupling of interior modes within a link (LinkSuperelement).
+  [[nodiscard]] double largest_coupling() const { return coupling_; }
 
   /// Returns the stiffness of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }
   /// Returns the number of eigenvalues of the full model below `shift`, from the signs of the
-  /// pivots of K - shift M. It is the sum of the negative pivots of the link interiors and of their
-  /// Schur complement on the joint coordinates (Wittrick & Williams 1971). The result is -1 if the
-  /// pivots are dominated by round-off.
+  /// pivots of K - shift M. This number is the sum of the negative pivots of the link interiors and
+  /// of their Schur complement on the joint coordinates (Wittrick & Williams 1971). The result is
+  /// -1 if the pivots are dominated by round-off errors.
   [[nodiscard]] Index eigenvalues_below(double shift);
 
-  /// Computes the products Y = X M of all vectors with the mass matrix.
+  /// Computes the products Y = X M of the vectors in the rows of X with the mass matrix M.
   template <int rows>
   void mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const;
-  /// Computes energies and residuals of approximate modes X from X and MX = X M.
+  /// Computes energies and residuals of approximate modes X from X and from the product MX = X M.
   template <int rows>
   [[nodiscard]] ModeMeasures<rows> measure_modes(const VectorBlock<rows>& X,
                                                  const VectorBlock<rows>& MX,
@@ -118,7 +122,8 @@ class MovingPencil {
  private:
   struct Link {
     Index first = 0, last = 0;  ///< range of the modes of the link in VectorBlock::inside
-    std::vector<Index> ends;    ///< free coordinates that move the ends of the link
+    /// Free joint coordinates that move the ends of the link.
+    std::vector<Index> ends;
   };
 
   template <int rows>
@@ -136,8 +141,10 @@ class MovingPencil {
   std::vector<Link> links_;
   Index free_coordinates_ = 0;
   double coupling_ = 0;
-  Eigen::VectorXd length_;  // scale of each coordinate: 1, or the model size for rotations
-  Eigen::VectorXd mu_;      // mass of the interior modes, 1 / omega^2
+  // Length by which each coordinate is multiplied: 1, or the model size for rotations.
+  Eigen::VectorXd length_;
+  // Modal masses 1 / omega^2 of the interior modes, which have stiffness 1.
+  Eigen::VectorXd mu_;
   Eigen::MatrixXd K_, M_, shifted_;
   Eigen::MatrixXd P_;  // mass coupling of joint coordinates (rows) and interior modes
   DenseLdlt count_;

@@ -107,13 +107,14 @@ void MovingSystem::locate_mesh_nodes() {
     const Member& member = model.members[to_size(e.member)];
     done = e.member == before ? done + 1 : 1;
     before = e.member;
-    if (done == member.elements) continue;  // the second node is the end of the member
+    // The second node of the last element is the end of the member.
+    if (done == member.elements) continue;
     span_[to_size(e.nodes[1])] = {member.nodes,
                                   static_cast<double>(done) / static_cast<double>(member.elements)};
   }
 }
 
-/// Finds all matrix entries that are nonzero at any pose.
+/// Finds the sparsity pattern of the matrices: all entries that are nonzero at any pose.
 void MovingSystem::find_pattern() {
   const RowMajorMatrix& T = constraints_.T();
   std::vector<Eigen::Triplet<double>> places;
@@ -147,9 +148,9 @@ Vector2d MovingSystem::interpolate_at_mesh_node(Index mesh_node,
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
 
-/// Returns the inertia load of the nominal motion on an element, in element axes. The interpolation
-/// represents the nominal acceleration, an affine field, exactly. A point mass that is offset from
-/// its node adds a centrifugal force.
+/// Returns the inertia load of the nominal motion on an element, in element axes. The nominal
+/// acceleration is an affine field, which the interpolation represents exactly. A point mass that
+/// is offset from its node adds a centrifugal force.
 Vector6d MovingSystem::element_inertia_load(const MovingElement& element, const PartMotion& part,
                                             const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
@@ -281,7 +282,8 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     scatter_local(element, direction, mass_drag + strain_drag, forces.working.drag);
     scatter_local(element, direction, f, forces.total);
     scatter_local(element, direction, -inertia, forces.external);
-    if (element.layout == MovingElement::Layout::frame)  // frame elements come first
+    // Frame elements precede all other elements, so that e is the index of the frame element.
+    if (element.layout == MovingElement::Layout::frame)
       forces.element.col(static_cast<Index>(e)) = f;
   }
   return forces;
@@ -289,7 +291,8 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
 
 namespace {
 
-/// Ratio of pivot to diagonal below which the stiffness counts as singular.
+/// Ratio of the smallest pivot to the diagonal up to which the stiffness matrix is treated as
+/// singular.
 constexpr double kSingularPivotRatio = 1e-13;
 
 Model loaded_model(const ElastodynamicsOptions& options, double time) {

@@ -17,19 +17,23 @@
 namespace trammel::solver {
 namespace {
 
-constexpr Index kBlock = 64;    // number of poses that one thread solves in sequence
-constexpr Index kGuard = 3;     // number of iteration vectors in addition to the requested modes
-constexpr Index kLargest = 48;  // joint coordinates above which sparse matrices are faster
-constexpr double kSmallestPivot = 1e-9;  // limit of pivots of the scaled K: a loss of nine digits
-constexpr double kMaxCoupling = 1e-7;    // limit of mode coupling; its square changes eigenvalues
-constexpr double kTolerance = 1e-11;     // limit of the relative change of eigenvalues in one step
-// Backward error of modes at which the iteration ends. Up to ten times this value is accepted.
+constexpr Index kBlock = 64;  // number of poses that one thread solves in sequence
+constexpr Index kGuard = 3;   // number of iteration vectors in addition to the requested modes
+// Number of joint coordinates above which sparse matrices are faster.
+constexpr Index kLargest = 48;
+// Lower limit of the pivots of the scaled K. At this limit, nine digits are lost.
+constexpr double kSmallestPivot = 1e-9;
+// Upper limit of neglected mode coupling, whose square is the relative error of eigenvalues.
+constexpr double kMaxCoupling = 1e-7;
+// Upper limit of the relative change of eigenvalues in one step.
+constexpr double kTolerance = 1e-11;
+// Backward error of modes below which the iteration ends.
 constexpr double kResidual = 1e-11;
-constexpr double kClearGap = 1e-3;  // relative difference of eigenvalues that count as distinct
+constexpr double kClearGap = 1e-3;  // relative difference of eigenvalues treated as distinct
 
-/// Data shared by all threads. Each thread writes results of different poses.
+/// Data shared by all threads. Different threads write results of different poses.
 struct Task {
-  const ManipulatorDesign& design;  ///< without inactive effects
+  const ManipulatorDesign& design;  ///< manipulator without inactive effects
   const std::vector<Pose>& poses;
   const PoseModesOptions& options;
   PoseModes& result;
@@ -53,7 +57,8 @@ void store(const Task& task, std::size_t at, const ModalSolution& modes, Counter
   counters += modes.counters;
 }
 
-/// Computes the modes of a block of poses in sequence by subspace iteration with `rows` vectors.
+/// Computes the modes of a block of poses, one pose after the other, by subspace iteration with
+/// `rows` vectors.
 template <int rows>
 class BlockSolver {
  public:
@@ -97,7 +102,8 @@ class BlockSolver {
     ++counters.factorizations;
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
-    // Start with the modes of the preceding pose. A second trial uses new start vectors.
+    // Start with the modes of the preceding pose. If this trial fails, the second trial uses new
+    // start vectors.
     for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {
       if (trial > 0) begin();
       if (iterate(trial == 0) && certify(at)) return warm_ = true;
@@ -108,7 +114,7 @@ class BlockSolver {
   void begin() {
     const Index n = pencil_.joint_coordinate_count();
     X_.ends = start_vectors(rows, n);
-    // Scale the joint coordinates to unit stiffness, which is the stiffness of interior modes.
+    // Scale the joint coordinates to unit stiffness, which is also the stiffness of interior modes.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.interior_mode_count(), 1);
   }
@@ -121,7 +127,8 @@ class BlockSolver {
     pencil_.mass_times(Y_, MY_);
   }
 
-  /// Iterates until the requested eigenvalues and modes converge. Returns false on failure.
+  /// Iterates until the requested eigenvalues and modes converge. Returns false if they do not
+  /// converge.
   bool iterate(bool warm) {
     constexpr int kSteps = 60;
     pencil_.mass_times(X_, MX_);
@@ -160,8 +167,8 @@ class BlockSolver {
     for (Index i = 0; i < X.inside.cols(); ++i) X.inside.col(i) = Z * X.inside.col(i);
   }
 
-  /// Computes the lowest eigenvalues in the subspace of Y = K^-1 M X, and their relative change in
-  /// this step. For a mode Y z, the approximation before the step is X z.
+  /// Computes the lowest eigenvalues in the subspace of Y = K^-1 M X, and the relative change of
+  /// the eigenvalues in this step. For a mode Y z, the approximation before the step is X z.
   bool rayleigh_ritz() {
     const Square stiffness = products(Y_, MX_), inertia = products(Y_, MY_);
     const Square before = products(X_, MX_);
@@ -188,8 +195,8 @@ class BlockSolver {
     return true;
   }
 
-  /// Returns the number of eigenvalues below the first clear gap above the requested modes, or 0 if
-  /// no gap was found.
+  /// Returns the number of eigenvalues below the first gap of at least kClearGap above the
+  /// requested modes, or 0 if no such gap was found.
   [[nodiscard]] Index cut() const {
     for (Index k = task_.options.count; k < rows; ++k) {
       if (!(change_[k - 1] < 1e-2 * kClearGap)) return 0;
@@ -210,7 +217,7 @@ class BlockSolver {
     }
     if (below != found) return false;
     const Numbers w2 = measures_.strain / measures_.inertia;
-    // The Rayleigh quotients of element matrices must confirm the eigenvalues of assembled
+    // The Rayleigh quotients from element matrices must confirm the eigenvalues from assembled
     // matrices.
     if (!((w2 / value_ - 1).abs().head(count).maxCoeff() < 1e-6)) return false;
     Evidence evidence;
@@ -238,7 +245,8 @@ class BlockSolver {
   int plain_ = 1;      // number of inverse iterations before the first Rayleigh-Ritz step
 };
 
-/// Solves blocks of poses on threads. The result of each block depends on its poses only.
+/// Solves blocks of poses on threads, one thread per solver. The result of each block depends only
+/// on the poses of the block.
 template <class Solver>
 void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::atomic<std::size_t> next = 0;
@@ -250,8 +258,7 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  // If the call get() of one future throws, the destructors of the other futures wait for their
-  // threads.
+  // If get() of a future throws, the destructors of the other futures wait for their threads.
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;

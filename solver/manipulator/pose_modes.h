@@ -13,21 +13,26 @@ namespace trammel::solver {
 struct PoseModesOptions {
   Index count = 6;                  ///< number of modes at each pose
   Effects active = Effects::all();  ///< active effects; all others are removed from the model
-  Index threads = 0;  ///< 0: one thread per core; results are bit-identical for any number
+  /// Number of threads; 0: one thread per core. Results are bit-identical for any number of
+  /// threads.
+  Index threads = 0;
 };
 
 /// Natural frequencies of a manipulator at many poses (Varalakshmi & Srinivas 2017, Eq. 28, 29),
-/// one column per pose. Columns without a solution are NaN. Missing modes at the end of a column
-/// are NaN.
+/// one column per pose. A column is NaN if the pose has no solution. If the model has fewer modes
+/// than requested, the end of the column is NaN.
 struct PoseModes {
-  std::vector<Outcome> outcome;  ///< singular: out of reach, or as ModalSolution
-  Eigen::MatrixXd frequency;     ///< ascending, 0 for rigid modes [Hz]
-  Eigen::MatrixXd roundoff;      ///< relative round-off error of each frequency [-]
+  /// singular: the pose is out of reach, or a status of ModalSolution.
+  std::vector<Outcome> outcome;
+  /// Natural frequencies, ascending, 0 for rigid modes [Hz].
+  Eigen::MatrixXd frequency;
+  Eigen::MatrixXd roundoff;  ///< relative round-off error of each frequency [-]
   std::vector<Evidence> evidence;
   std::vector<Index> zero_energy_mode_count;
   Index free_coordinates = 0;
   double coupling = 0;  ///< largest neglected coupling of modes within a link (LinkSuperelement)
-  Index by_itself = 0;  ///< number of poses solved separately by `solve_modes`
+  /// Number of poses whose modes are computed by `solve_modes` instead of subspace iteration.
+  Index by_itself = 0;
   Counters counters;
 };
 
@@ -35,12 +40,12 @@ struct PoseModes {
 /// (moving_pencil.h). The iteration starts with the modes of the preceding pose in the same block
 /// of 64 poses. Results are therefore the same for any number of threads. Sylvester's law of
 /// inertia certifies that no mode is missing: the number of eigenvalues below a shift above the
-/// last mode must equal the number of modes. Poses that cannot be certified are solved separately
-/// by `solve_modes`. Examples are parallel singularities and free actuators.
-/// Source: Bathe (2014), ch. 11.6, for the iteration.
+/// last mode must equal the number of modes. Poses without this certificate are solved separately
+/// by `solve_modes`. Examples are parallel singularities and poses of a manipulator with free
+/// actuators. Source: Bathe (2014), ch. 11.6, for the iteration.
 /// @param design  manipulator.
 /// @param poses  poses of the platform.
-/// @param options  number of modes, effects, threads.
+/// @param options  number of modes, active effects, number of threads.
 /// @throws ModelError  as `build_manipulator`, except for a pose that is out of reach.
 [[nodiscard]] PoseModes solve_pose_modes(const ManipulatorDesign& design,
                                          const std::vector<Pose>& poses,

@@ -25,7 +25,8 @@ Vec2<T> turned(const Vector2d& v, const T& angle) {
   return along * v.x() + perp(along) * v.y();
 }
 
-/// Unit vectors a, e along the proximal and distal links, and c = C_i - P.
+/// Unit vectors a and e along the proximal and the distal link of a limb, vector c = C_i - P, and
+/// link lengths.
 template <Real T>
 struct Limb {
   Vec2<T> a, e, c;
@@ -51,7 +52,8 @@ Vector3d body_inertia(const RigidManipulator& m, Index body) {
   return of((body < 3 ? m.proximal : m.distal)[to_size(body % 3)]);
 }
 
-/// Center of mass of a body and the matrix that maps rates of the nine coordinates to its velocity.
+/// Center of mass of a body, and the matrix J that maps the rates of the nine coordinates to the
+/// velocity of the body.
 template <Real T>
 struct BodyPlace {
   Vec2<T> position;
@@ -100,7 +102,7 @@ Outcome state_outcome(const Posture& posture, const ManipulatorGeometry& geometr
   if (!(j.serial_distance > kSingularRatio))
     return {Status::singular,
             "a serial singularity: a limb is straight or folded, so that the velocity of the "
-            "platform does not determine that of its actuator"};
+            "platform does not determine the velocity of the actuator"};
   return {};
 }
 
@@ -128,9 +130,10 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
   return M;
 }
 
-/// Solves K G = D, where G maps actuator rates to the motion of the platform. The rows of K are
-/// (e^T, cross(c, e)). D is diagonal with the entries l1 cross(a, e) of the limbs. The rotation is
-/// scaled to be comparable with translations.
+/// Returns the matrix W of qdot = W thetadot_a. The last three rows G of W map actuator rates to
+/// the motion of the platform and follow from K G = D. The rows of K are (e^T, cross(c, e)). D is
+/// diagonal with the entries l1 cross(a, e) of the limbs. The platform rotation is multiplied by
+/// the platform radius, so that it is comparable with translations.
 template <Real T>
 Eigen::Matrix<T, 9, 3> actuator_to_joint_jacobian(const RigidManipulator& m, const Vector9<T>& q) {
   const double size = platform_radius(m.geometry);

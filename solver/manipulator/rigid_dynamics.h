@@ -13,22 +13,22 @@
 ///   M(q) q.. + C(q, q.) q. + N(q) = forces,  q = [theta_a (3), theta_p (3), x, y, phi].
 ///
 /// A dot denotes the time derivative. N is the derivative of the potential energy of gravity by q.
-/// The forces on the right are those of the actuators, the load and the closed loops. The closed
-/// loops give q. = W theta_a. and the reduced equation
+/// The forces on the right-hand side are those of the actuators, the load and the closed loops. The
+/// closed loops require q. = W theta_a., which gives the reduced equation
 ///
 ///   Mh theta_a.. + Ch theta_a. + Nh = tau + (dx/dtheta_a)^T wrench,
 ///
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
 ///
-/// The actuator torques are tau, and dx/dtheta_a are the last three rows of W. The wrench acts on
-/// the platform at P. Unit vectors along proximal and distal link are a and e, the link lengths are
-/// l1 and l2, and c = C - P. The loop P + c = A + l1 a + l2 e of a limb gives, along e and along
-/// perp(e),
+/// The actuator torques are tau, and dx/dtheta_a is the matrix of the last three rows of W. The
+/// wrench acts on the platform at P. Unit vectors along proximal and distal link are a and e, the
+/// link lengths are l1 and l2, and c = C - P. The time derivative of the loop equation P + c = A +
+/// l1 a + l2 e of a limb has these components along e and along perp(e):
 ///
 ///   e . C. = l1 s theta_a.,   perp(e) . C. = l1 (a . e) theta_a. + l2 theta_p.,  s = cross(a, e).
 ///
-/// Templates over T are defined for double and dual numbers (Dual). Dual numbers carry rates, from
-/// which W. and the accelerations follow.
+/// Templates over T are defined for double and for dual numbers (Dual). The derivatives of the dual
+/// numbers are rates, from which W. and the accelerations follow.
 namespace trammel::solver {
 
 template <class T>
@@ -37,14 +37,14 @@ using Vector9d = Vector9<double>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Matrix93d = Eigen::Matrix<double, 9, 3>;
 
-/// Rigid link.
+/// Mass properties of a rigid link.
 struct RigidLink {
   double mass = 0;     ///< [kg]
-  double center = 0;   ///< center of mass, from the first joint along the link [m]
+  double center = 0;   ///< distance of the center of mass from the first joint of the link [m]
   double inertia = 0;  ///< about the center of mass [kg m^2]
 };
 
-/// Rigid bodies of the manipulator.
+/// Mass properties and dimensions of the rigid bodies of the manipulator, and gravity.
 struct RigidManipulator {
   ManipulatorGeometry geometry;
   std::array<RigidLink, 3> proximal, distal;
@@ -53,12 +53,12 @@ struct RigidManipulator {
 };
 
 /// Returns the rigid bodies of a design. The inertia of a link about its center is the printed
-/// value, or m L^2 / 12. (The flexible model distributes the mass over the length, which results in
-/// this inertia. A printed inertia is added to it, half at each end.)
+/// value, or m L^2 / 12 if no value is printed. (In the flexible model, a printed inertia is added
+/// to the inertia of the distributed mass, half at each end.)
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
-/// Returns dual numbers with the given values and with the given rates as derivatives.
+/// Returns dual numbers with the given values, and with the given rates as their derivatives.
 template <int n>
 [[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
                                                    const Eigen::Matrix<double, n, 1>& rates) {
@@ -76,7 +76,8 @@ template <int n, int m>
   return values.unaryExpr([](const Dual& x) { return x.value(); });
 }
 
-/// Returns the symmetric mass matrix M with its time derivative [kg, kg m, kg m^2].
+/// Returns the symmetric mass matrix M [kg, kg m, kg m^2]. The derivatives of the dual numbers are
+/// the time derivative of M.
 [[nodiscard]] Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m,
                                                     const Vector9<Dual>& q);
 
@@ -92,15 +93,16 @@ template <Real T>
 [[nodiscard]] Vector9<T> joint_velocities(const RigidManipulator& m, const Vector9<T>& q,
                                           const Eigen::Matrix<T, 3, 1>& platform_rate);
 
-/// Inertia, position and Jacobian matrix of a body, with (xdot, ydot, omega) = J q. at its center.
+/// Inertia, position and Jacobian matrix J of a body. J gives the velocity of the center of mass
+/// and the angular velocity, (xdot, ydot, omega) = J qdot.
 struct BodyTerms {
   Vector3d inertia;   ///< mass, mass, and inertia about the center of mass [kg, kg, kg m^2]
   Vector2d position;  ///< position of the center of mass [m]
   Eigen::Matrix<double, 3, 9> J, J_dot;
 };
 
-/// Terms of the equations of motion (Varalakshmi & Srinivas 2017, Eq. 1-5) in one state; NaN unless
-/// solved.
+/// Terms of the equations of motion (Varalakshmi & Srinivas 2017, Eq. 1-5) at one pose and
+/// velocity. All terms are NaN unless the outcome is solved.
 struct RigidTerms {
   /// singular: the pose is out of reach, at a parallel singularity (no W), or at a serial
   /// singularity. At a serial singularity, the velocity of the platform requires an infinite
@@ -115,7 +117,7 @@ struct RigidTerms {
   /// and Mh. - 2 Ch is skew-symmetric.
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
   Vector3d Nh = Vector3d::Constant(kNaN);
-  std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
+  std::array<BodyTerms, 7> bodies;  ///< proximal links 1-3, distal links 1-3, platform
 };
 
 /// Computes the terms of the equations of motion at a pose and velocity (xdot, ydot [m/s], phidot
@@ -124,22 +126,22 @@ struct RigidTerms {
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
-/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch in one state (Varalakshmi &
-/// Srinivas 2017, Eq. 4, 5).
+/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch at one pose and velocity
+/// (Varalakshmi & Srinivas 2017, Eq. 4, 5).
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
-  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch [-], with Mh. computed independently of C. It
-  /// is 0 at rest.
+  /// Relative size |S + S^T| / (|Mh.| + 2 |Ch|) of the symmetric part of S = Mh. - 2 Ch [-]. Mh. is
+  /// computed independently of C. The result is 0 at rest.
   double skewness = 0;
   double min_eigenvalue = 0;  ///< smallest eigenvalue of Mh [kg m^2]
 };
 
-/// Computes the residuals of the properties of Mh and Ch in a solved state.
+/// Computes the residuals of the properties of Mh and Ch at the pose and velocity of `terms`.
 /// @pre terms.outcome.solved()
 [[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
                                                    const RigidTerms& terms);
 
-// Motion of all bodies, torques and powers of the rigid manipulator on its path.
+// Inverse dynamics: motion of all bodies, torques and powers of the rigid manipulator on its path.
 
 /// Plane motion of one body: position, velocity and acceleration of its center of mass.
 struct BodyMotion {
@@ -147,16 +149,17 @@ struct BodyMotion {
   double angle = kNaN, angular_velocity = kNaN, angular_acceleration = kNaN;
 };
 
-/// Torques, energies and motion of all bodies; NaN unless solved.
+/// Torques, energies and motion of all bodies. All numbers are NaN unless the outcome is solved.
 struct InverseDynamics {
-  Outcome outcome;  ///< as RigidTerms
+  /// Outcome with the statuses of RigidTerms.
+  Outcome outcome;
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q, q_ddot = q;
-  std::array<BodyMotion, 7> bodies;            ///< proximal 1-3, distal 1-3, platform
+  std::array<BodyMotion, 7> bodies;            ///< proximal links 1-3, distal links 1-3, platform
   Vector3d torque = Vector3d::Constant(kNaN);  ///< actuator torques on the proximal links [N m]
   double kinetic_energy = kNaN;                ///< [J]
   double potential_energy = kNaN;              ///< energy in the gravity field, -sum m g . x [J]
-  /// Rate of the kinetic energy, summed over the bodies: sum of m v . a + J omega alpha [W]. The
-  /// power balance is
+  /// Rate of the kinetic energy: the sum of m v . a + J omega alpha over the bodies [W]. The power
+  /// balance is
   ///
   ///   kinetic_power = actuator_power + load_power + gravity_power.
   double kinetic_power = kNaN;

@@ -57,8 +57,8 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
 
 namespace {
 
-/// Region of positions of the platform point P that a limb can reach: between two circles about one
-/// center.
+/// Region of positions of the platform point P that a limb can reach: the ring between two
+/// concentric circles.
 struct Annulus {
   Vector2d center;
   double inner = 0, outer = 0;
@@ -95,9 +95,9 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
   if (!arc.empty()) arcs.push_back(std::move(arc));
 }
 
-/// Finds the point with det J_x = 0 between two positions at which det J_x has the values `a` and
-/// `b` of opposite signs. Returns an empty value if a limb cannot reach all of the line between
-/// them.
+/// Finds the point with det J_x = 0 on the line between the positions `from` and `to`. The values
+/// of det J_x at these positions, `a` and `b`, have opposite signs. Returns an empty value if a
+/// limb cannot reach a point of the line.
 std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi,
                                  const Vector2d& from, const Vector2d& to, double a, double b) {
   std::uintmax_t evaluations = 100;
@@ -106,7 +106,8 @@ std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi
     const Vector2d P = from + t * (to - from);
     const double value = parallel_determinant(geometry, {P.x(), P.y(), phi});
     left = left || std::isnan(value);
-    return left ? 0.0 : value;  // 0 ends the search for the zero
+    // The value 0 ends the search of toms748_solve at once.
+    return left ? 0.0 : value;
   };
   const auto ends = boost::math::tools::toms748_solve(
       along, 0.0, 1.0, a, b, boost::math::tools::eps_tolerance<double>(), evaluations);

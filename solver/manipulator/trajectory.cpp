@@ -30,10 +30,11 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
           {-w * w * rx, -w * w * ry, 0}};
 }
 
-/// Returns pose, velocity and acceleration of from + s (to - from), with ds = ds/dt, dds = d2s/dt2.
+/// Returns the pose from + s (to - from) with its velocity and acceleration, where ds = ds/dt and
+/// dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = to.vector() - from.vector();
-  require_path(line.allFinite(), "the ends of the path are not finite");
+  require_path(line.allFinite(), "the start or end pose of the path is not finite");
   return {0, pose_of(from.vector() + s * line), ds * line, dds * line};
 }
 
@@ -89,9 +90,9 @@ bool is_still(const Way& line) {
 
 }  // namespace
 
-// Unknowns are the accelerations a_k at the times t_k of the given poses. The time intervals are
-// h_k = t_{k+1} - t_k, and slope_k is the difference of the poses k + 1 and k over h_k. Velocities
-// are continuous if
+// Computes a cubic spline. Unknowns are the accelerations a_k at the times t_k of the given poses.
+// The time intervals are h_k = t_{k+1} - t_k, and slope_k is the difference of the poses k + 1 and
+// k divided by h_k. Velocities are continuous if
 //
 //   h_{k-1} a_{k-1} + 2 (h_{k-1} + h_k) a_k + h_k a_{k+1} = 6 (slope_k - slope_{k-1}).
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,

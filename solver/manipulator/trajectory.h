@@ -10,7 +10,7 @@
 /// Prescribed motions of the platform: pose, velocity and acceleration at every time.
 namespace trammel::solver {
 
-/// Error: a path is invalid, or does not cover a requested time.
+/// Error: a path is invalid, or does not include a requested time.
 class PathError : public ModelError {
  public:
   using ModelError::ModelError;
@@ -33,15 +33,16 @@ struct Circle {
   double phi = 0;                      ///< [rad]
 };
 
-/// Motion at constant speed from one pose to another, which continues beyond `duration`.
+/// Motion at constant velocity. The platform is at `from` at t = 0 and at `to` at t = duration, and
+/// continues to move before and after.
 struct Line {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]
 };
 
-/// Motion from rest in `from` to rest in `to`, along s = 10 u^3 - 15 u^4 + 6 u^5 with u = t /
-/// duration. Velocity and acceleration vanish at both ends. The platform is at rest before and
-/// after the motion.
+/// Motion from rest in `from` to rest in `to`. The traveled fraction is s = 10 u^3 - 15 u^4 + 6 u^5
+/// with u = t / duration. Velocity and acceleration vanish at both ends. The platform is at rest
+/// before and after the motion.
 struct RestToRest {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]
@@ -54,13 +55,13 @@ struct Spline {
   Eigen::MatrixX3d acceleration;  ///< at the given times, computed by `make_spline`
 };
 
-/// End conditions. natural: zero acceleration; at_rest: zero velocity; periodic: last pose = first
-/// pose.
+/// End conditions of a spline. natural: zero acceleration at both ends; at_rest: zero velocity at
+/// both ends; periodic: equal first and last pose, velocity and acceleration.
 enum class SplineEnds { natural, at_rest, periodic };
 
 /// Computes a spline through given poses.
-/// @throws ModelError  if there are fewer than three points, a number is not finite or the times do
-///   not ascend. A periodic spline also requires equal first and last poses.
+/// @throws ModelError  if the number of poses is less than three, a number is not finite, the times
+///   do not ascend, or the first and last poses of a periodic spline differ.
 [[nodiscard]] Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                                  SplineEnds ends);
 
@@ -71,7 +72,8 @@ using Path = std::variant<Circle, Line, RestToRest, Spline>;
 /// @throws ModelError  if the path is invalid, or the time is outside the range of a spline.
 [[nodiscard]] TrajectoryPoint at(const Path& path, double time);
 
-/// Returns the first and the last time of the path [s]. They are infinite except for a spline.
+/// Returns the first and the last time of the path [s]. Both times are infinite unless the path is
+/// a spline.
 [[nodiscard]] std::pair<double, double> time_span(const Path& path);
 
 /// Returns true if the platform is at rest at all times.

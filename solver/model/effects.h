@@ -9,22 +9,23 @@
 #include <vector>
 
 /// Physical effects that a model may include. An inactive effect is removed from the model before
-/// assembly. It then causes no degrees of freedom, no matrices and no evaluations.
+/// assembly. An inactive effect therefore causes no degrees of freedom, no matrices and no
+/// evaluations.
 namespace trammel::solver {
 
 /// Physical effect that a model may include.
 enum class Effect : std::uint8_t {
-  axial_flexibility,     ///< members that bend can stretch; off: constraints make them inextensible
-  shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh beam
-  rotary_inertia,        ///< rotary inertia of the sections; off: Euler-Bernoulli or shear beam
+  axial_flexibility,     ///< axial strain of bending members; off: inextensible bending members
+  shear,                 ///< shear deformation of members; off: Euler-Bernoulli or Rayleigh beam
+  rotary_inertia,        ///< rotary inertia of cross-sections; off: Euler-Bernoulli or shear beam
   platform_flexibility,  ///< elastic platform of a manipulator, made of triangles; off: rigid body
   joint_compliance,      ///< springs between member ends and nodes; off: welded ends
   link_mass,             ///< mass and inertia of the members
   gravity,               ///< weight of all masses
-  inertia,     ///< all masses; off: no mass matrix, and motion is a sequence of equilibria
-  damping,     ///< dissipative forces that depend on velocities
+  inertia,               ///< inertia of all masses; off: motion is a sequence of static equilibria
+  damping,               ///< dissipative forces that depend on velocities
   gyroscopic,  ///< Coriolis and other forces in rotating frames, except the centrifugal force
-  geometric_stiffening,  ///< internal forces turn with their member or plate: second-order theory
+  geometric_stiffening,  ///< internal forces rotate with member or plate (second-order theory)
   large_displacement,  ///< equilibrium in the deformed configuration: geometrically exact elements
 };
 inline constexpr std::size_t kEffectCount = 12;
@@ -55,7 +56,7 @@ class Effects {
 
 /// Returns the name of an effect in case files, such as "axial-flexibility".
 [[nodiscard]] std::string_view name_of(Effect effect);
-/// Returns the effect with this name, or an empty value.
+/// Returns the effect with the given name (as in case files), or an empty value if there is none.
 [[nodiscard]] std::optional<Effect> find_effect(std::string_view name);
 
 /// Number of evaluations of element matrices, element loads and springs that each effect causes.
@@ -63,13 +64,13 @@ using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Numbers of evaluations, factorizations, solutions and steps during an analysis. They are the
-/// same on every machine. Inactive effects cause no evaluations.
+/// Numbers of evaluations, factorizations, solutions and steps during an analysis. The numbers are
+/// the same on every machine. Inactive effects cause no evaluations.
 struct Counters {
   std::int64_t element_evaluations = 0;  ///< evaluations of element matrices
   std::int64_t factorizations = 0;
   std::int64_t solves = 0;  ///< solved right-hand sides, including iterative refinement
-  std::int64_t steps = 0;   ///< time steps or load steps, including rejected ones
+  std::int64_t steps = 0;   ///< time steps or load steps, including rejected steps
   EffectCounts effects{};   ///< evaluations caused by each effect
 
   void add(Effect effect, std::int64_t evaluations) {

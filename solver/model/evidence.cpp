@@ -10,18 +10,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Limit for one row of a system of equations. A row is a sum of at most about 1000 terms, for a
-/// rigid body with all members that are joined to it. Rounding each term to eps leaves a relative
-/// residual of 1e3 eps = 2e-13. Newton's method leaves a hundred times this residual at a critical
-/// point, where the tangent stiffness is singular. A factor that is wrong by one part in a million
-/// leaves a residual of 1e-6.
+/// Limit of the relative residual of each row of a system of equations. A row has at most about
+/// 1000 terms, which occur for a rigid body to which many members are joined. If each term has a
+/// relative round-off error eps, the relative residual is 1e3 eps = 2e-13. At a critical point,
+/// where the tangent stiffness is singular, the residual after Newton's method is a hundred times
+/// as large. For comparison, a coefficient with a relative error of 1e-6 causes a residual of 1e-6.
 constexpr double kRowLimit = 1e-10;
 
-/// Limit for the equation of motion. Newton's method ends a time step when its last correction is
-/// small. The remaining residual is 1e-5 of the terms of a row where four-bar linkages pass
-/// singular positions. It is at most 3e-11 in the other cases of the suite. Missing inertia, an
-/// outdated load or a velocity of the wrong sign leaves a residual above this limit
-/// (motion_residuals_test.cpp).
+/// Limit of the relative residual of the equation of motion. In each time step, Newton's method
+/// ends when its last correction is small. The remaining residual is 1e-5 of the terms of a row
+/// when four-bar linkages pass singular positions. In all other cases of the suite, the residual is
+/// at most 3e-11. Missing inertia, an outdated load or a velocity of the wrong sign causes a
+/// residual above this limit (motion_residuals_test.cpp).
 constexpr double kStepLimit = 1e-4;
 
 constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{

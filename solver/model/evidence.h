@@ -13,15 +13,15 @@ enum class Status { solved, singular, not_converged };
 /// Status of a computation with its reason.
 struct Outcome {
   Status status = Status::solved;
-  std::string reason;  ///< explanation; empty if solved
+  std::string reason;  ///< explanation of a failure; empty if the status is `solved`
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-// Independent residuals that support a solution. The method of solution does not use them.
+// Independent residuals that support a solution. The solution method does not use these residuals.
 
 /// Type of a residual. Each residual is a sum that is zero for the exact solution, divided by the
-/// magnitudes of its terms. Round-off alone leaves a few eps (2.2e-16), a meaningless solution
-/// about 1.
+/// sum of the magnitudes of its terms. A residual is a few eps (2.2e-16) if only round-off errors
+/// exist, and about 1 for a meaningless solution.
 enum class Residual {
   equilibrium,          ///< K u - f, row by row; K and f are assembled again for this check
   recovered_forces,     ///< sum of the reported member forces, reactions and loads on each node
@@ -29,8 +29,8 @@ enum class Residual {
   mode_count,  ///< number of missing, superfluous (Sylvester's law of inertia) and duplicate modes
   equation_of_motion,  ///< equation of motion, row by row; the largest over all steps
   constraints,  ///< position error of joints, drives and closed loops, relative to the model size
-  energy,       ///< work of all forces minus the change of energy, over the full run
-  load,  ///< |K u - f| / |f|, at least its round-off error; small if the condition number is small
+  energy,       ///< work of all forces minus the change of energy, over all time steps
+  load,  ///< |K u - f| / |f|, or its round-off error if larger; increases with ill-conditioning
 };
 inline constexpr std::array kResiduals = {Residual::equilibrium,
                                           Residual::recovered_forces,
@@ -43,7 +43,7 @@ inline constexpr std::array kResiduals = {Residual::equilibrium,
 
 /// Name and limit of a type of residual.
 struct ResidualRule {
-  const char* name;  ///< name in results and messages
+  const char* name;  ///< name of the residual in results and messages
   double limit;      ///< a solution with a larger residual does not count as solved
   /// Description of the error term on which the limit of the residual is based.
   const char* why;
@@ -52,19 +52,19 @@ struct ResidualRule {
 [[nodiscard]] const ResidualRule& residual_rule(Residual kind);
 
 /// Value of Residual::load above which a warning is issued. The solution is not rejected. Above
-/// this value, ill-conditioning dominates the digits of the forces. Below this value, the solution
+/// this value, ill-conditioning impairs the accuracy of the forces. Below this value, the solution
 /// satisfies the loads more accurately than loads can be measured.
 inline constexpr double kLoadWarning = 1e-6;
 
-/// Largest residual of each type that was computed.
+/// Collection of computed residuals, which stores the largest residual of each type.
 class Evidence {
  public:
   /// Records a residual. NaN and negative values count as infinite.
   void add(Residual kind, double value);
-  /// Records the largest residual of each type in another `Evidence` object.
+  /// Records the residuals that another `Evidence` object contains.
   void add(const Evidence& other);
   [[nodiscard]] bool has(Residual kind) const { return taken_[index(kind)]; }
-  /// Returns the largest residual of a type.
+  /// Returns the largest recorded residual of a type, or 0 if none was recorded.
   [[nodiscard]] double largest(Residual kind) const { return largest_[index(kind)]; }
   [[nodiscard]] bool empty() const;
 
@@ -75,9 +75,10 @@ class Evidence {
   std::array<double, kResiduals.size()> largest_{};
 };
 
-/// Returns the outcome that the evidence supports. A solved outcome is accepted under three
-/// conditions: residuals were computed, they include all types in `needed`, and all are within
-/// their limits. Otherwise the outcome is `not_converged`. Failures are returned unchanged.
+/// Returns the outcome of a solution after a check of its residuals. A solved outcome is returned
+/// unchanged under three conditions: residuals were computed, the residuals include all types in
+/// `needed`, and all residuals are within their limits. Otherwise, the outcome is `not_converged`.
+/// An outcome that is a failure is returned unchanged.
 [[nodiscard]] Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                                           const std::vector<Residual>& needed = {});
 

@@ -13,14 +13,14 @@
 #include "solver/model/numbers.h"
 
 /// Planar finite element model. A case file describes the model, and `assemble` builds its
-/// matrices. All quantities are in SI units and world axes. Indices refer to the vectors of the
-/// same Model.
+/// matrices. All quantities are in SI units and world axes. Indices of nodes, members and other
+/// objects refer to the vectors of the same Model.
 namespace trammel::solver {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Isotropic linear elastic material. With T = Dual (numbers.h), each property also carries its
+/// Isotropic linear elastic material. With T = Dual (numbers.h), each property also contains its
 /// derivative with respect to one parameter.
 template <class T>
 struct MaterialOf {
@@ -39,8 +39,8 @@ struct SectionOf {
   T kappa_GA = T(0);
   T mass_per_length = T(0);     ///< rho A [kg/m]
   T inertia_per_length = T(0);  ///< rho I [kg m], if the theory includes rotary inertia
-  T area = T(0);                ///< A [m^2], for stresses
-  T section_modulus = T(0);     ///< I / c [m^3], for bending stresses
+  T area = T(0);                ///< cross-sectional area A [m^2], for stresses
+  T section_modulus = T(0);     ///< section modulus I / c [m^3], for bending stresses
 };
 using Section = SectionOf<double>;
 
@@ -70,23 +70,23 @@ enum class EndFixity { welded, hinged, sprung };
 /// Joint between the end of a member and its node.
 struct MemberEnd {
   EndFixity fixity = EndFixity::welded;
-  double stiffness = 0;  ///< of the rotational spring between end and node [N m/rad]; `sprung` only
+  double stiffness = 0;  ///< rotational stiffness between end and node [N m/rad]; `sprung` only
   double inertia = 0;    ///< rotary inertia that turns with the member end [kg m^2]
 };
 
 /// Variation of the section between the ends of a member.
 enum class Taper {
-  linear_area_and_inertia,  ///< every property is linear
+  linear_area_and_inertia,  ///< every section property varies linearly along the member
   linear_depth_and_width,   ///< A is quadratic, I is of degree 4; E, kappa G and rho are linear
-  exponential               ///< every property changes by equal factors over equal lengths
+  exponential               ///< every section property changes by equal factors over equal lengths
 };
 
 /// Straight frame member, divided into equal elements by `assemble`.
 struct Member {
   std::string name;
   std::array<Index, 2> nodes{};
-  Section section;  ///< at the first node
-  /// Section at the second node. Each element has the section at its midpoint, which is
+  Section section;  ///< section at the first node
+  /// Section at the second node. Each element is uniform and has the section at its midpoint,
   /// interpolated according to `taper`.
   Section end_section;
   Taper taper = Taper::linear_area_and_inertia;
@@ -98,11 +98,11 @@ struct Member {
   Vector2d load = Vector2d::Zero();  ///< uniform load per unit length, world axes [N/m]
 };
 
-/// Membrane in plane stress. Triangles refer to it by index.
+/// Membrane in plane stress. A triangle refers to its plate by the index of the plate.
 struct Plate {
   std::string name;
   Material material;
-  double thickness = 0;  ///< [m]
+  double thickness = 0;  ///< thickness [m]
 };
 
 /// Three-node constant-strain triangle, or six-node triangle with mid-side nodes 01, 12, 20.
@@ -115,24 +115,26 @@ struct Triangle {
 /// Node of the model.
 struct Node {
   std::string name;
-  Vector2d position = Vector2d::Zero();  ///< [m]
+  Vector2d position = Vector2d::Zero();  ///< undeformed position [m]
 };
 
-/// Rigid body of several nodes. The rotation of the reference node is the rotation of the body.
-/// Every member end that is welded to an attached node turns with the body (Varalakshmi & Srinivas
-/// 2017, Eq. 20-24).
+/// Rigid body that connects several nodes. The rotation of the reference node is the rotation of
+/// the body. Every member end that is welded to an attached node turns with the body (Varalakshmi &
+/// Srinivas 2017, Eq. 20-24).
 struct RigidBody {
   std::string name;
   Index reference = 0;
   std::vector<Index> attached;
 };
 
-/// Mass and inertia carried by a node. The center of mass may be offset from the node (world axes).
+/// Point mass with a moment of inertia, which is attached to a node.
 struct PointMass {
   Index node = 0;
-  double mass = 0;                     ///< [kg]
-  double inertia = 0;                  ///< about the center of mass [kg m^2]
-  Vector2d offset = Vector2d::Zero();  ///< [m]; requires the rotation of the node if not zero
+  double mass = 0;     ///< mass [kg]
+  double inertia = 0;  ///< moment of inertia about the center of mass [kg m^2]
+  /// Vector from the node to the center of mass, in world axes [m]. If the vector is not zero, the
+  /// node must have a rotation.
+  Vector2d offset = Vector2d::Zero();
 };
 
 /// Spring between two nodes, or between a node and the ground (second node -1).
@@ -142,27 +144,29 @@ struct Spring {
   Vector3d stiffness = Vector3d::Zero();  ///< along world x, y [N/m] and in rotation [N m/rad]
 };
 
-/// Displacements and rotation of a node that are fixed to the ground.
+/// Support that fixes displacements or the rotation of a node to the ground.
 struct Support {
   std::string name;
   Index node = 0;
-  std::array<bool, 3> fixed{};  ///< x, y, rotation
+  std::array<bool, 3> fixed{};  ///< true for each fixed direction: x, y, rotation
 };
 
-/// Coordinate of the unconstrained model: a motion of a node, or the rotation of a member end.
+/// Coordinate of the unconstrained model: a displacement or the rotation of a node, or the rotation
+/// of a member end.
 struct Coordinate {
   enum class Kind { x, y, rotation, end_rotation };
   Kind kind = Kind::x;
-  Index node = -1;    ///< x, y, rotation
-  Index member = -1;  ///< end_rotation
-  int end = 0;        ///< end_rotation
+  Index node = -1;    ///< index of the node, for the kinds x, y and rotation
+  Index member = -1;  ///< index of the member, for the kind end_rotation
+  int end = 0;        ///< end of the member (0 or 1), for the kind end_rotation
 };
 
 /// Homogeneous linear constraint on the motion of the model: sum of coefficient * coordinate = 0.
 /// Eq. 25 of Varalakshmi & Srinivas (2017) and pins of finite radius have this form.
 struct LinearConstraint {
-  /// Slider on a straight rail, if the constraint is the linearized condition that keeps the slider
-  /// on the rail. The rail rotates with `node`.
+  /// Slider on a straight rail. A constraint that keeps a slider on its rail for small motions
+  /// refers to this object. The rail rotates with the node `node`, and `slider` is the sliding
+  /// node.
   struct Rail {
     Index node = 0, slider = 0;
     Vector2d direction = Vector2d::UnitX();
@@ -180,13 +184,13 @@ struct NodalLoad {
 
 /// Uniform force per area on one side of a triangle. The loaded area is thickness times length. The
 /// load is the sum of a traction in world axes and a normal traction. The normal points to the
-/// right of the direction from the first to the second node. It points outward if the triangle runs
-/// counterclockwise.
+/// right of the direction from the first to the second node. The normal points outward if the nodes
+/// of the triangle are numbered counterclockwise.
 struct EdgeLoad {
   Index plate = 0;
-  std::array<Index, 3> nodes{-1, -1, -1};  ///< the two end nodes, and the middle node or -1
-  Vector2d traction = Vector2d::Zero();    ///< [Pa]
-  double normal = 0;                       ///< [Pa], tension positive
+  std::array<Index, 3> nodes{-1, -1, -1};  ///< two end nodes, then the middle node (-1: none)
+  Vector2d traction = Vector2d::Zero();    ///< traction in world axes [Pa]
+  double normal = 0;                       ///< normal traction, positive in tension [Pa]
 };
 
 /// Planar model of members, plates, rigid bodies, masses, springs, supports and loads.
@@ -202,33 +206,34 @@ struct Model {
   std::vector<LinearConstraint> constraints;
   std::vector<NodalLoad> loads;
   std::vector<EdgeLoad> edge_loads;
-  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+  Vector2d gravity = Vector2d::Zero();  ///< acceleration of gravity [m/s^2]
 
-  /// Returns the index of the node with this name, or -1.
+  /// Returns the index of the node with the given name, or -1 if there is none.
   [[nodiscard]] Index find_node(std::string_view name) const;
 };
 
-/// Error: a model or an option has no mechanical meaning, such as a beam welded to a node without
-/// rotation. The reader of a case file adds the file and the JSON pointer.
+/// Exception for a model or an option without mechanical meaning, such as a beam that is welded to
+/// a node without rotation. The function that reads a case file adds the file name and the JSON
+/// pointer to the message.
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// @throws ModelError  with the message, if the condition is false.
+/// @throws ModelError  with the text `message`, if `condition` is false.
 inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-// Labels of the objects of a model in messages: the name, or the number of an object without a
-// name.
+// Labels of the objects of a model in messages: the name of the object, or its index if the object
+// has no name.
 
-/// Returns "node" and the name or number of a node.
+/// Returns "node", followed by the name of a node, or by its index if the name is empty.
 [[nodiscard]] std::string node_label(const Model& model, Index node);
-/// Returns "member" and the name or number of a member.
+/// Returns "member", followed by the name of a member, or by its index if the name is empty.
 [[nodiscard]] std::string member_label(const Model& model, Index member);
-/// Returns the type of an object (`kind`, such as "spring") and its name, or its number if the name
-/// is empty.
+/// Returns the type of an object (`kind`, such as "spring"), followed by the name of the object, or
+/// by its index if the name is empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
 // Operations on vectors in the plane.
@@ -238,7 +243,7 @@ inline void require(bool condition, const std::string& message) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns the vector rotated counterclockwise by 90 degrees.
+/// Returns the vector v rotated counterclockwise by 90 degrees.
 [[nodiscard]] inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
 }
@@ -252,8 +257,8 @@ inline void require(bool condition, const std::string& message) {
 
 /// Returns the diagonal of the bounding box of points [m], or 1 if the range is empty or all points
 /// coincide. This length scales rotations for comparison with translations.
-/// @param range  entries with positions.
-/// @param position  function that returns the position of an entry.
+/// @param range  objects that have positions, such as nodes.
+/// @param position  function that returns the position of an object in `range`.
 template <class Range, class Position = std::identity>
 [[nodiscard]] double box_diagonal(const Range& range, Position position = {}) {
   if (std::empty(range)) return 1;

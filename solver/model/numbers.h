@@ -20,15 +20,16 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Returns the larger of two numbers, or NaN if one of them is NaN. std::max would lose a NaN,
-/// because it keeps its first argument if the comparison is false.
+/// because std::max returns its first argument if the comparison is false.
 [[nodiscard]] inline double nan_max(double a, double b) {
   return std::isnan(a) || b <= a ? a : b;
 }
 
-// Exact derivatives by dual numbers instead of finite differences. The functions that build
-// elements from a design are templates over `Real`. The same code therefore computes derivatives.
+// Dual numbers, which yield exact derivatives instead of finite differences. The functions that
+// build elements from a design are templates, in which a number is a double or a Dual. With Dual,
+// the same functions also compute derivatives with respect to a design parameter.
 
-/// Value and its derivative with respect to one parameter.
+/// Dual number: a value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 
 template <class T>
@@ -41,11 +42,11 @@ concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
-/// Returns the derivative of a dual number with respect to the parameter.
+/// Returns the derivative that a dual number contains.
 [[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }
-/// Returns a dual number with the given derivative. The parameter itself has the derivative 1.
+/// Returns a dual number with the given derivative. For the parameter itself, `derivative` is 1.
 [[nodiscard]] inline Dual with_derivative(double value, double derivative) {
   return {value, Eigen::Matrix<double, 1, 1>(derivative)};
 }

@@ -3,14 +3,14 @@
 #include <Eigen/Core>
 #include <array>
 
-/// Integration rules for integrands that are not polynomials: loads and errors of fields given as
-/// functions. Element matrices use rules of the degree that they require.
+/// Integration rules on lines and triangles. The rules are used for element matrices, and for
+/// functions that are not polynomials, such as given distributed loads and errors of fields.
 namespace trammel::solver {
 
 /// Point of an integration rule on the line 0 <= xi <= 1.
 struct LineQuadraturePoint {
-  double xi = 0;      ///< fraction of the length
-  double weight = 0;  ///< the weights sum to 1
+  double xi = 0;      ///< position as a fraction of the length
+  double weight = 0;  ///< weight; the sum of all weights is 1
 };
 
 /// Returns the five-point Gauss-Legendre rule. It is exact for polynomials up to degree 9.
@@ -20,7 +20,7 @@ struct LineQuadraturePoint {
 struct TriangleQuadraturePoint {
   /// Area coordinates of the integration point, one for each corner of the triangle [-].
   Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();
-  double weight = 0;  ///< the weights sum to 1
+  double weight = 0;  ///< weight; the sum of all weights is 1
 };
 
 /// Returns the product of two five-point Gauss rules on a square, of which one side is collapsed to

@@ -23,14 +23,15 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// Solves (K + i w C - w^2 M) x = f with Rayleigh damping, as ((1 + i w stiffness) K + (i w mass -
-/// w^2) M) x = f. The matrix is real without damping.
+/// Solves (K + i w C - w^2 M) x = f with Rayleigh damping. The matrix is (1 + i w stiffness) K + (i
+/// w mass - w^2) M, which is real without damping.
 VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
                        const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
-    if (!factorization.is_nonsingular()) {  // the frequency is an undamped natural frequency
+    // If the frequency is an undamped natural frequency, change it by a relative amount of 5e-10.
+    if (!factorization.is_nonsingular()) {
       factorization.compute(system.K - omega * omega * (1 + 1e-9) * system.M);
     }
     if (!factorization.is_nonsingular()) return {};
@@ -46,7 +47,8 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
   if (!lu.factorize(Z)) return {};
   const VectorXcd load = f.cast<Complex>();
   const VectorXcd x = lu.solve(load);
-  return x + lu.solve(load - Z * x);  // refinement reduces errors of rows with small entries
+  // Iterative refinement reduces the errors of rows with small entries.
+  return x + lu.solve(load - Z * x);
 }
 
 }  // namespace
@@ -105,8 +107,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  // Remove the superposed modes from the direct response. In the direct response, these modes are
-  // round-off errors that are large near a resonance.
+  // Remove the superposed modes from the direct response. The direct response contains these modes
+  // only as round-off errors, which are large near a resonance.
   if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);
@@ -164,7 +166,7 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
   const auto roundoff = force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
   // Returns the complex stress amplitude of a force. If the section does not define the resistance
-  // (area or section modulus), a force above round-off gives NaN.
+  // (area or section modulus), the result is NaN for a force larger than `negligible`.
   const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {
     const double stress = stress_of_force(force, resistance, negligible);
     return stress > 0 ? force / resistance : Complex(stress);
@@ -173,8 +175,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
   result.member_stress.setZero(members);
-  // Loop backward: the first element of a member comes last and therefore sets the forces at its
-  // start.
+  // Loop backward, so that the first element of each member is the last to be visited and sets the
+  // forces at the start of the member.
   for (Index i = size.rows(); i-- > 0;) {
     const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(i)];
     const bool last = i + 1 == size.rows() ||
@@ -218,7 +220,7 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
       best = i;
     }
   }
-  // Bracket the peak by the nearest scan points with lower values on both sides, because there may
+  // Bracket the peak by the nearest points with lower amplitudes on both sides, because there may
   // be several peaks between two scan points.
   const double first = places[best > 0 ? best - 1 : 0],
                last = places[std::min(best + 1, places.size() - 1)];
@@ -229,10 +231,11 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   };
   double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
-  constexpr int kBits = 26;  // half the bits of a double, because a maximum is flat
+  // Half the bits of a double, because a maximum is flat.
+  constexpr int kBits = 26;
   std::uintmax_t evaluations = 100;
-  // Use the fraction of the interval as variable of the search, because the tolerance of the search
-  // has an absolute part.
+  // Search in the fraction of the interval instead of the frequency, because the tolerance of the
+  // search has an absolute part.
   const double start = below(width), interval = above(width) - start;
   const auto [share, negative] = boost::math::tools::brent_find_minima(
       [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);

@@ -15,11 +15,12 @@ struct Stop {
   bool sample = false, breakpoint = false;
 };
 
-/// Returns the sample times, breakpoints after the start, and the end, in ascending order.
+/// Returns the stops: sample times, breakpoints after the start, and the end, in ascending order.
 std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
                            const std::vector<double>& breakpoints) {
-  // Round-off error of a time that is a multiple of a step [s]. A breakpoint at a larger distance
-  // from every other stop gets a separate stop, so that short load pulses are resolved.
+  // Round-off error of a time that is a multiple of a step [s]. If the distance of a breakpoint
+  // from all other stops is larger, the breakpoint becomes a separate stop, so that short load
+  // pulses are resolved.
   const double apart = 8 * kEps * std::max(std::abs(options.start), std::abs(options.end));
   std::vector<Stop> stops;
   for (const double time : samples) stops.push_back({time, true, false});
@@ -46,16 +47,18 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
   return stops;
 }
 
-/// Returns the least number of equal steps in the time `span` [s], such that no step exceeds `step`
-/// [s]. The number is a multiple of `multiple`.
+/// Returns the smallest number of equal steps in the time `span` [s] for which no step exceeds
+/// `step` [s]. The number is a multiple of `multiple`.
 double equal_steps(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }
 
-/// Time steps of the size largest step / 2^level between stops.
+/// Time steps of the size largest step / 2^level between two stops. The level changes by one at a
+/// time.
 class HalvedSteps {
  public:
-  static constexpr double kErrorLimit = 1;  ///< largest accepted error over the allowed error
+  /// Largest accepted ratio of estimated error to allowed error.
+  static constexpr double kErrorLimit = 1;
   explicit HalvedSteps(const TransientOptions& options) : options_(options) {}
   void begin(double time, double stop) {
     begin_ = time;
@@ -79,7 +82,7 @@ class HalvedSteps {
     done_ /= 2;
     count_ /= 2;
   }
-  /// Halves the size of the next time steps. @returns null, or the reason of a failure.
+  /// Halves the size of the next time steps. Returns null, or the reason if the integration fails.
   [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) {
     if (report.status != Status::solved) return "no solution of the step was found";
     if (++level_ > options_.adaptive->finest_level) return "the step size is at its minimum";
@@ -92,12 +95,12 @@ class HalvedSteps {
  private:
   const TransientOptions& options_;
   double begin_ = 0, end_ = 0, largest_ = 0, size_ = 0;
-  std::int64_t done_ = 0, count_ = 0;  ///< completed and total steps at the current level
+  std::int64_t done_ = 0, count_ = 0;  ///< completed and total number of steps at the current level
   int level_ = 0;
 };
 
-/// Step sizes that follow from the estimated error. Smaller and larger steps are tried if a step
-/// does not converge.
+/// Step sizes that follow from the estimated error. If a step does not converge, smaller and larger
+/// sizes are tried.
 class FreeSteps {
  public:
   static constexpr double kErrorLimit = 1.5;
@@ -110,7 +113,8 @@ class FreeSteps {
     failures_ = 0;
     failed_size_ = 0;
   }
-  /// Returns the next step. The steps until a sample time are equal, which avoids a tiny last step.
+  /// Returns the next step. With fixed steps or given sample times, all steps up to a stop are
+  /// equal, which avoids a tiny last step.
   [[nodiscard]] Step next(double time) const {
     const double remaining = stop_ - time;
     const double allowed = failures_ > 0 ? size_ : std::min(size_, longest_);
@@ -127,7 +131,7 @@ class FreeSteps {
       size_ = std::min(options_.step, 2 * size_);
       return;
     }
-    // A step that was shortened by a stop does not reduce the next step.
+    // A step that was shortened to end at a stop does not reduce the size of the next step.
     const double wanted = step.size * 0.85 / std::cbrt(std::max(error, 1e-6));
     size_ = std::clamp(wanted, 0.3 * step.size, std::max(1.8 * step.size, size_));
   }
@@ -145,8 +149,8 @@ class FreeSteps {
   }
 
  private:
-  /// Returns a new size after a step that does not converge. Smaller and larger sizes alternate,
-  /// because a singular position may lie within the step. The equations are regular again beyond
+  /// Returns a new size for a step that did not converge. Smaller and larger sizes alternate,
+  /// because a singular position may lie within the step. The equations are regular again after
   /// this position.
   double retry(double size) {
     if (failed_size_ == 0) failed_size_ = size;
@@ -185,8 +189,8 @@ class TimeIntegration {
   }
 
  private:
-  /// Sets the limit of the number of steps. With fixed steps it is 1000 plus ten times the
-  /// requested number. Failing steps become smaller and smaller, and the limit ends such runs.
+  /// Sets the limit of the number of steps. With fixed steps, the limit is 1000 plus ten times the
+  /// requested number. The limit ends integrations whose steps fail and become smaller and smaller.
   void set_step_limit(Index stops) {
     max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
@@ -195,7 +199,7 @@ class TimeIntegration {
     const double limit = 1000 + 10 * steps;
     if (limit >= static_cast<double>(max_steps_)) return;
     max_steps_ = static_cast<std::int64_t>(limit);
-    limit_reason_ = "too many steps failed: the limit is ten times the requested number of steps";
+    limit_reason_ = "too many steps failed: the limit is 1000 + 10 times the requested number";
   }
 
   bool advance(double stop) {

@@ -20,9 +20,9 @@ struct Factor {
   VectorXd value, slope;
 };
 
-/// Visits the intervals between all sample times and load times in ascending order. Calls `sample`
-/// with (index of the sample, load factors of the interval that follows), and `advance` with
-/// (length of the interval [s], load factors of the interval).
+/// Iterates over the intervals between all sample times and load times in ascending order. Calls
+/// `sample` with the index of a sample and the load factors of the interval that starts at the
+/// sample. Calls `advance` with the length [s] and the load factors of each interval.
 template <class Sample, class Advance>
 void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, const Sample& sample,
           const Advance& advance) {
@@ -50,7 +50,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   const Eigen::MatrixXd stiffness = K;
   const double trace = mass.trace();
   if (!(trace > 0)) throw ModelError("a model without mass has no vibration modes");
-  // Solve M x = mu (K + s M) x with a shift far below most of the spectrum: mu = 1 / (w^2 + s).
+  // Solve M x = mu (K + s M) x with a shift s far below most eigenvalues w^2: mu = 1 / (w^2 + s).
   const double shift = 1e-4 * stiffness.trace() / trace;
   const double positive = shift > 0 ? shift : 1;
   const Eigen::MatrixXd shifted = stiffness + positive * mass;
@@ -76,7 +76,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
     basis.shape.col(i) = x / std::sqrt(modal_mass);
     basis.omega[i] = x.dot(stiffness * x) / modal_mass;
   }
-  // Eigenvalues within the round-off error of the stiffest mode are treated as zero.
+  // Treat eigenvalues as zero if they are within the round-off error of the largest eigenvalue.
   const double zero = count == 0 ? 0 : 1e-15 * basis.omega.cwiseAbs().maxCoeff();
   for (double& w2 : basis.omega) w2 = w2 > zero ? std::sqrt(w2) : 0;
   return basis;
@@ -138,7 +138,7 @@ DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxatio
     found.value.col(column) = settled + away;
     found.rate.col(column) = factor.slope;
     if (relaxation == 0) return;
-    // Compute the rate by the differential equation, which has no round-off error at rest.
+    // Compute the rate from the differential equation, which causes no round-off error at rest.
     found.rate.col(column) = (factor.value - found.value.col(column)) / relaxation;
     found.acceleration.col(column) = (factor.slope - found.rate.col(column)) / relaxation;
   };
@@ -188,13 +188,13 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
 
 namespace {
 
-/// Evaluates the Taylor series of the impulse response for w t < 1 and c t < 1, for which the
-/// closed forms suffer from cancellation.
+/// Evaluates the Taylor series of the impulse response. The series is used for w t < 1 and c t < 1,
+/// where the closed forms suffer from cancellation.
 ImpulseResponse by_series(double omega, double decay, double t) {
   const double c = decay * t;
   const double w2 = omega * t * omega * t;
   // The series of the impulse response is h = t sum b_k with b_0 = 1. `before` and `b` are two
-  // successive terms b_k.
+  // successive terms b_(k-1) and b_k.
   double before = 0;
   double b = 1;
   ImpulseResponse r{.dh = 0, .h = 0, .h1 = 0, .h2 = 0};
@@ -213,7 +213,7 @@ ImpulseResponse by_series(double omega, double decay, double t) {
   return r;
 }
 
-/// First and second integral of the decay e^(-rate t) over [0, t].
+/// First and second integral of the exponential decay e^(-rate t) over [0, t].
 struct Decay {
   double once, twice;
 };
@@ -234,7 +234,8 @@ Decay integrate_decay(double rate, double t) {
   return {once, (t - once) / rate};
 }
 
-/// Computes the response as the difference of two decays whose rates are far apart.
+/// Computes the impulse response as the difference of two exponential decays whose rates differ
+/// strongly.
 ImpulseResponse by_decays(double omega, double decay, double root, double t) {
   const double fast = decay + root, slow = omega * omega / fast;
   const double gap = 2 * root;

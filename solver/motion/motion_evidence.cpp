@@ -41,8 +41,8 @@ void MotionEvidence::add_equilibrium(double time, double load_time, const Vector
   matrices_.update(time);
   if (scale_.size() == 0) set_coordinate_scale(step);
   sum_ = -f_;
-  // Moments of a load may cancel, so that the load on a rotation is only a round-off error. The
-  // load scale of each row is therefore at least a fraction of the largest load.
+  // Moments of a load may cancel, so that the load on a rotation is only a round-off error. In the
+  // scale of each row, the load is therefore at least a fraction of the largest load.
   const double load = f_.size() ? f_.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>() : 0;
   terms_ = f_.cwiseAbs().cwiseMax((kLeastFraction * load) * scale_);
   add_product(matrices_.M(), A);

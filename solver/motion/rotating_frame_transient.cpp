@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns the displacements of all points for a rotation of the model by 1 rad about the center.
+/// Returns the linearized displacements of all nodes for a rotation of the model by 1 rad about the
+/// center.
 VectorXd unit_rotation(const System& system, const Vector2d& center) {
   VectorXd rotation = VectorXd::Zero(system.T.rows());
   for (std::size_t i = 0; i < system.coordinates.node.size(); ++i) {
@@ -25,7 +26,8 @@ VectorXd unit_rotation(const System& system, const Vector2d& center) {
   return rotation;
 }
 
-/// Computes K_1, the geometric stiffness of the centrifugal forces at 1 rad/s, by linear statics.
+/// Computes K_1, the geometric stiffness matrix of the centrifugal forces at 1 rad/s, by linear
+/// statics.
 Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
   if (Outcome determined = require_determinate_prestress(system); !determined.solved())
     return determined;
@@ -60,8 +62,8 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   const SparseMatrix added = K_1 - centrifugal_softening(system);
   SparseMatrix C = equation.C;
   if (C.size() == 0) C.resize(system.K.rows(), system.K.cols());
-  // Create a common sparsity pattern. A sum keeps the positions of all entries of its terms,
-  // including zeros.
+  // Create a common sparsity pattern. A sum of sparse matrices contains the positions of all
+  // entries of its terms, including zeros.
   SparseMatrix zero = system.M + system.K + C + G + added;
   zero.coeffs().setZero();
   const auto values = [&zero](const SparseMatrix& A) {

@@ -43,7 +43,7 @@ TimeScheme generalized_alpha(double radius) {
 }
 
 double spectral_radius(const TimeScheme& s, double phase_step) {
-  // The state is (q, h v, h^2 A). The oscillator has h^2 a = -W^2 q with W = w h.
+  // The state is (q, h v, h^2 A). The oscillator has h^2 a = -k q with k = (w h)^2.
   const double k = phase_step * phase_step;
   Eigen::Matrix3d left;
   Eigen::Matrix3d right;

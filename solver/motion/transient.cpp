@@ -19,8 +19,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Limit of the residual of the equation of motion at the end of a step, relative to the sum of its
-/// terms. Round-off errors of the products of M, C and K with the motion are added to the limit.
+/// Limit of the residual of the equation of motion at the end of a step, relative to the sum of the
+/// norms of its terms. Round-off errors of the products of M, C and K with the motion are added to
+/// the limit.
 constexpr double kResidual = 1e-10;
 constexpr int kMaxRefinements = 40;
 
@@ -48,8 +49,8 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   }
 }
 
-/// Evaluates the cubic polynomial in s = 0 ... 1 over a step of length h, with values x and slopes
-/// d at its ends.
+/// Evaluates a cubic polynomial at s = 0 ... 1 over a step of length h. x0 and x1 are the values at
+/// both ends, d0 and d1 the slopes.
 void hermite(double s, double h, const VectorXd& x0, const VectorXd& d0, const VectorXd& x1,
              const VectorXd& d1, VectorXd& x) {
   const double r = 1 - s;
@@ -57,13 +58,13 @@ void hermite(double s, double h, const VectorXd& x0, const VectorXd& d0, const V
       (h * s * s * r) * d1;
 }
 
-/// Passes the samples within a step to the observer.
+/// Passes the samples of each step to the observer.
 class SampleOutput {
  public:
-  /// Stores references to both arguments.
-  /// @param times  ascending [s]; empty: the ends of all steps.
-  /// @param observe  receives the samples.
-  /// @pre Both arguments outlive this object.
+  /// Stores references to `times` and `observe`.
+  /// @param times  ascending sample times [s]; empty: the ends of all steps.
+  /// @param observe  function that receives the samples.
+  /// @pre `times` and `observe` must outlive this object.
   SampleOutput(const std::vector<double>& times, const MotionObserver& observe)
       : times_(times), observe_(observe) {}
 
@@ -73,7 +74,7 @@ class SampleOutput {
       emit(state.time, state.q, state.v, state.a, state.shown);
     } while (next_ < times_.size() && times_[next_] == state.time);
   }
-  /// Returns true if a step that ends at this time contains a sample.
+  /// Returns true if a step that ends at the time `end` contains a sample.
   [[nodiscard]] bool covers(double end) const {
     return times_.empty() || (next_ < times_.size() && times_[next_] <= end);
   }
@@ -94,8 +95,8 @@ class SampleOutput {
 };
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
-  // The time at the end of a step is a sum of step sizes with round-off errors. A sample counts as
-  // the end of the step if its distance from the end is at most this fraction of the step.
+  // The time at the end of a step is a sum of step sizes with round-off errors. A sample is treated
+  // as the end of the step if its distance from the end is at most this fraction of the step.
   constexpr double kEndOfStep = 1e-6;
   if (times_.empty()) {
     emit(end.time, end.q, end.v, end.a, end.shown);
@@ -121,7 +122,7 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
 }
 
 /// Stepper of the linear equation M q'' + C q' + K q = f. The matrices are constant or known
-/// functions of time. Factorizations of constant matrices are kept for each step size.
+/// functions of time. Factorizations of constant matrices are stored for each step size.
 class LinearStepper final : public Stepper {
  public:
   LinearStepper(const EquationOfMotion& equation, const TransientOptions& options,
@@ -177,8 +178,9 @@ class LinearStepper final : public Stepper {
   double judge_residual(StepReport& report, double& allowed) const;
   [[nodiscard]] double error_ratio(double h);
   void update_energies(double load_time);
-  /// Returns the time at which the load is evaluated at the end of a step. It is just before a
-  /// stop, because `EquationOfMotion::load` writes the value after a jump.
+  /// Returns the time at which the load is evaluated at the end of a step. If the step ends at a
+  /// stop, this time is just before the stop, because `EquationOfMotion::load` writes the value
+  /// after a jump.
   [[nodiscard]] double load_time(const Step& step) const {
     return step.last ? std::nextafter(step.end, now_->time) : step.end;
   }
@@ -187,17 +189,22 @@ class LinearStepper final : public Stepper {
   const TransientOptions& options_;
   TimeScheme scheme_;
   EquationMatrices matrices_;
-  SparseMatrix S_;  // M + gamma' h C + beta' h^2 K of a step
+  // Step matrix M + gamma' h C + beta' h^2 K.
+  SparseMatrix S_;
   std::array<TransientState, 2> states_;
   TransientState *now_ = &states_[0], *next_ = &states_[1];
-  VectorXd residual_, correction_;  // work vectors
+  // Work vectors.
+  VectorXd residual_, correction_;
   std::unique_ptr<SparseLdlt> mass_factor_;
-  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step matrix if M is singular
+  // Factorization of M, or of the first step matrix if M is singular.
+  SparseLdlt* start_factor_ = nullptr;
   bool mass_is_singular_ = false;
   MasslessCoordinates massless_;
-  bool massless_balance_ = false;  // output states: massless coordinates are in equilibrium
+  // true: in output states, massless coordinates are in equilibrium.
+  bool massless_balance_ = false;
   std::array<TransientState, 2> shown_{TransientState(0), TransientState(0)};
-  std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;  // one step size per level
+  // Step size and factorization of the step matrix for each level.
+  std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;
   double largest_ = 0, largest_residual_ = 0;
   MotionEvidence evidence_;
   SampleOutput output_;
@@ -221,9 +228,10 @@ Outcome LinearStepper::start() {
   return {};
 }
 
-/// Computes the accelerations after a breakpoint from the equation of motion, which does not
-/// contain those of massless coordinates. With constant matrices, massless coordinates follow the
-/// other coordinates. Otherwise their acceleration is that of the first step.
+/// Computes the accelerations after a breakpoint from the equation of motion. This equation does
+/// not contain the accelerations of massless coordinates. With constant matrices, massless
+/// coordinates follow the other coordinates. Otherwise their acceleration is computed with the
+/// matrix of the first step.
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
   matrices_.update(now_->time);
@@ -266,8 +274,8 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   return {};
 }
 
-/// Moves massless coordinates to their new equilibrium after a jump of the load. They move
-/// instantly. The work that is not stored as strain energy is dissipated.
+/// Moves massless coordinates to their new equilibrium after a jump of the load, without delay. The
+/// work that is not stored as strain energy is dissipated.
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
   matrices_.compute_load(now_->time + h / 2, next_->f);
@@ -282,10 +290,10 @@ void LinearStepper::settle_massless(double h) {
 }
 
 /// Estimates the amplitude of the motion from the load of a segment, because the error control
-/// requires an amplitude before there is any motion. The shape x = M^-1 f is assumed to move as an
-/// oscillator with the frequency of its Rayleigh quotient. The frequency has a lower limit from the
-/// total time, which covers free bodies. The estimate is the static displacement or, in a shorter
-/// segment, the distance covered at the speed that the load causes.
+/// requires an amplitude before the motion starts. The shape x = M^-1 f is assumed to move as an
+/// oscillator with the frequency of its Rayleigh quotient. For free bodies, the frequency has a
+/// lower limit that follows from the total time. The estimate is the static displacement or, in a
+/// shorter segment, the distance covered at the speed that the load causes.
 void LinearStepper::estimate_size_from_load(double begin, double end) {
   constexpr int kPoints = 8;
   const double time = options_.end - options_.start;
@@ -305,8 +313,9 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   }
 }
 
-/// Returns the factors of the step matrix M + gamma' h C + beta' h^2 K, or null if it is singular.
-/// gamma' and beta' are the gains of velocity and position (`TimeScheme`), and h is the step size.
+/// Returns the factorization of the step matrix M + gamma' h C + beta' h^2 K, or null if the matrix
+/// is singular. gamma' and beta' are the gains of velocity and position (`TimeScheme`), and h is
+/// the step size.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
   const auto index = matrices_.is_constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);
@@ -321,8 +330,9 @@ SparseLdlt* LinearStepper::step_factor(const Step& step) {
   return factor->factorize(S_) ? factor.get() : nullptr;
 }
 
-/// Predicts the motion with zero acceleration at the end of the step, and corrects until the
-/// equation of motion holds at the end. Symmetric matrices need a single correction.
+/// Predicts the motion with zero acceleration at the end of the step. Then corrects the motion
+/// until the equation of motion is satisfied at the end. Symmetric matrices require a single
+/// correction.
 StepReport LinearStepper::attempt(const Step& step) {
   const double h = step.size;
   if (now_->A_step != h) rescale_to_new_step(h / now_->A_step, now_->a, now_->A);
@@ -371,8 +381,8 @@ void LinearStepper::form_residual() {
   residual_ = next_->f - next_->Ma - next_->Cv - next_->Kq;
 }
 
-/// Computes the residual relative to the sum of its terms, and the allowed residual. @returns the
-/// largest entry of the residual.
+/// Computes the residual relative to the sum of the norms of its terms, and the allowed residual.
+/// Returns the largest magnitude of the residual.
 double LinearStepper::judge_residual(StepReport& report, double& allowed) const {
   const double left = infinity_norm(residual_);
   const double terms = infinity_norm(next_->Ma) + infinity_norm(next_->Cv) +

@@ -11,35 +11,37 @@
 namespace trammel::solver {
 
 /// Energies of a motion, and work and dissipation since its start [J]. The sum kinetic + strain -
-/// work + dissipated is constant, except for the energy that the scheme dissipates or that changing
-/// matrices exchange.
+/// work + dissipated is constant if neither the time scheme nor changing matrices add or remove
+/// energy.
 struct MotionEnergy {
-  double kinetic = 0;     ///< v^T M v / 2
-  double strain = 0;      ///< q^T K q / 2
-  double work = 0;        ///< work of the load, by the trapezoidal rule over each step
-  double dissipated = 0;  ///< by damping, by the same rule; with a working motion: work of `drag`
+  double kinetic = 0;  ///< kinetic energy v^T M v / 2
+  double strain = 0;   ///< strain energy q^T K q / 2
+  double work = 0;     ///< work of the load, by the trapezoidal rule over each step
+  /// Energy dissipated by damping, by the trapezoidal rule. With a working motion: work of `drag`.
+  double dissipated = 0;
   [[nodiscard]] double total() const { return kinetic + strain - work + dissipated; }
 };
 
 /// Motion at a sample time. Between the ends of a step, q and v are cubic Hermite polynomials, and
-/// a and the energies are linear. After samples inside a step, the end of the step is also output,
-/// because the equation of motion is satisfied there.
+/// a and the energies are linear. After samples inside a step, the state at the end of the step is
+/// also output, because the equation of motion is satisfied at this time.
 struct MotionSample {
-  Index index = 0;             ///< -1: end of a step that is no sample
-  double time = 0;             ///< [s]
-  const Eigen::VectorXd& q;    ///< [SI]
-  const Eigen::VectorXd& v;    ///< q' [SI/s]
-  const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
+  /// Index of the sample; -1: end of a step that is no sample time.
+  Index index = 0;
+  double time = 0;             ///< sample time [s]
+  const Eigen::VectorXd& q;    ///< displacements [SI]
+  const Eigen::VectorXd& v;    ///< velocities q' [SI/s]
+  const Eigen::VectorXd& a;    ///< accelerations q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
-  /// True: the time is inside a step, so that the equation of motion has an interpolation error.
+  /// true: the time is inside a step, so that the equation of motion has an interpolation error.
   bool interpolated = false;
 };
 /// Function that receives the samples of a motion.
 using MotionObserver = std::function<void(const MotionSample&)>;
 
 /// Integrates an equation of motion and passes each sample to the observer. With constant matrices
-/// and fixed steps there is one factorization, and the loop does not allocate memory.
-/// @throws ModelError  if sizes differ, or a time or step is invalid.
+/// and fixed steps, there is one factorization, and the loop over steps does not allocate memory.
+/// @throws ModelError  if the sizes of vectors and matrices differ, or a time or step is invalid.
 [[nodiscard]] TransientSummary solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options,
                                                const MotionObserver& observe);
@@ -47,7 +49,8 @@ using MotionObserver = std::function<void(const MotionSample&)>;
 /// All samples of a motion: one row per coordinate, one column per sample.
 struct TransientHistory {
   TransientSummary summary;
-  std::vector<double> time;  ///< sample times [s]; a failure ends the list
+  /// Sample times up to the end or up to a failure [s].
+  std::vector<double> time;
   Eigen::MatrixXd q, v, a;
   std::vector<MotionEnergy> energy;
 };
@@ -56,13 +59,13 @@ struct TransientHistory {
 [[nodiscard]] TransientHistory solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options);
 
-/// Largest magnitude of a quantity that is sampled at equal time steps. It is refined by the
-/// parabola through the sample and its two neighbors.
+/// Largest magnitude of a quantity that is sampled at equal time steps. The peak is refined by the
+/// parabola through the largest sample and its two neighbors.
 struct Peak {
   double time = 0;
   double value = 0;
 };
-/// Returns the refined largest magnitude of values at equally spaced times [s], or zeros if empty.
+/// Returns the refined peak of values at equally spaced times [s], or zeros if `value` is empty.
 [[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
 /// Motion at the end of a time step: displacements, velocities, accelerations, forces and energies.
@@ -70,11 +73,13 @@ struct TransientState {
   double time = 0;
   Eigen::VectorXd q, v, a;
   Eigen::VectorXd A;  ///< algorithmic accelerations of the scheme
-  double A_step = 0;  ///< step to which A belongs [s]
+  /// Size of the step to which A refers [s].
+  double A_step = 0;
   Eigen::VectorXd f, Ma, Mv, Cv, Kq;
   MotionEnergy energy;
   WorkingMotion working;
-  MotionEnergy shown;  ///< `energy`, or the energy of the working motion
+  /// Output energy: `energy`, or the energy of the working motion.
+  MotionEnergy shown;
 
   explicit TransientState(Index n) {
     for (Eigen::VectorXd* x : {&q, &v, &a, &A, &f, &Ma, &Mv, &Cv, &Kq}) x->setZero(n);

@@ -14,7 +14,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Solves K q = f. Refinement accounts for a skew-symmetric part of K.
+/// Solves K q = f. Iterative refinement takes the skew-symmetric part of K into account, which is
+/// not factored.
 void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f, VectorXd& q,
                    Counters& counters) {
   VectorXd correction;
@@ -32,8 +33,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 
 double smooth_load_interval(const std::vector<double>& breakpoints,
                             const TransientOptions& options) {
-  // Fraction of the time from the start to a breakpoint in which the load counts as smooth. It is
-  // below 1, because the load at a jump has the value after the jump.
+  // Fraction of the time from the start to a breakpoint in which the load is treated as smooth. The
+  // fraction is below 1, because the load at a jump has the value after the jump.
   constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
@@ -97,9 +98,9 @@ Outcome check_time_step_stability(const EquationMatrices& matrices, const Transi
 
 namespace {
 
-/// Returns the least ratio of a diagonal entry of M to that of `added` over all coordinates with
-/// positive entries in both. A much smaller multiple of `added` is negligible for every mass, even
-/// if a step covers many periods.
+/// Returns the smallest ratio of a diagonal entry of M to that of `added`, over all coordinates
+/// with positive entries in both matrices. A much smaller multiple of `added` is negligible for
+/// every mass, even if a step contains many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();
@@ -132,8 +133,8 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
 
 void MasslessCoordinates::add_balancing_motion(const VectorXd& residual, VectorXd& x) {
   // B is C or K, and share is a small factor. The solution s of (M + share B) s = residual moves
-  // both massless coordinates and masses. The solution w of (M + share B) w = M s moves the masses
-  // by the same amount, and only masses. s - w therefore moves only massless coordinates.
+  // both massless coordinates and masses. The solution w of (M + share B) w = M s moves only
+  // masses, by the same amount as s. s - w therefore moves only massless coordinates.
   factor_.solve(residual, s_);
   const VectorXd image = matrices_->M() * s_;
   factor_.solve(image, w_);

@@ -1,6 +1,6 @@
 // Measures processor time and peak memory of computing the first ten modes of two large models.
-// Each model is solved at four sizes, from 1/32 to the full size, in separate processes. Prints the
-// exponents of the growth of time and memory with the size. Asserts nothing.
+// Each model is solved at four sizes, from 1/32 to the full size, in separate processes. The
+// program prints the exponents of the growth of time and memory with the size. It tests nothing.
 //   large_modes                  both models, four sizes
 //   large_modes lattice 100000   one model: a square lattice of 100000 frame members
 //   large_modes plate 200000     one model: a square plate of 200000 constant-strain triangles
@@ -118,7 +118,7 @@ Cost measure_cost(const std::string& kind, Index size) {
 int main(int argc, char** argv) {
   if (argc == 3) return run(argv[1], std::atol(argv[2]));
   for (const auto& [kind, size] : {std::pair{"lattice", Index{100000}}, {"plate", Index{200000}}}) {
-    Eigen::MatrixXd powers(4, 2), costs(4, 2);  // log cost = a + b log size
+    Eigen::MatrixXd powers(4, 2), costs(4, 2);  // rows of log(cost) = a + b log(size)
     for (Index i = 0; i < 4; ++i) {
       const auto part = static_cast<Index>(static_cast<double>(size) * std::pow(32, (i - 3) / 3.0));
       const Cost cost = measure_cost(kind, part);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Compares the processor time of trammel with that of other programs that do the same work from start to end.
 
-Arguments: the program, then rows (all by default). manipulator-4 and manipulator-64: eight modes and statics under 10 N, elements per
-link, against CalculiX. grnn-631 and grnn-100000: queries of 379 samples, against numpy. pendulum-16: a second of a flexible pendulum in
-large motion with 16 rods, against Simbody; both bobs are within 1e-6 m of the limit of their meshes. instructions-4 and instructions-64:
-the first two by valgrind; work before a computation gets a separate process counts once. Programs run alternately, ROUNDS times. The
+Arguments: the program, then rows (all by default). manipulator-4 and manipulator-64: eight modes and statics under 10 N, elements per link,
+against CalculiX. grnn-631 and grnn-100000: queries of 379 samples, against numpy. pendulum-16: 1 s of a flexible pendulum in large motion
+with 16 rods, against Simbody; mesh errors of both bobs are below 1e-6 m. instructions-4 and instructions-64: instructions of manipulator-4
+and manipulator-64 by valgrind; work before the process of a computation starts counts once. Programs run alternately, ROUNDS times. The
 ratio is the median of the ratios of the pairs, with the minimum and maximum. Answers are compared before times. The peers estimate no
 discretization errors, so the program is called with --no-errors."""
 import json
@@ -47,7 +47,7 @@ def seconds(command, folder):
 
 
 def compare(row, ours, theirs, folder, difference):
-    """Runs both sides alternately and prints the ratio of times and the `difference` of the answers."""
+    """Runs both programs alternately and prints the ratio of times and the `difference` of the answers."""
     pairs = [(seconds(ours, folder), sum(seconds(command, folder) for command in theirs)) for _ in range(ROUNDS)]
     ratios = sorted(a / b for a, b in pairs)
     a, b = (statistics.median(side) for side in zip(*pairs))
@@ -72,7 +72,7 @@ def grnn(program, folder, count):
     times = [2 * math.pi * k / 630 for k in range(379)]
     samples = {"inputs": [inputs(t) for t in times], "outputs": [[math.sin(t + k) for k in range(6)] for t in times]}
     queries = [inputs(2 * math.pi * k / count) for k in range(count)]
-    for sigma in (0.3, 0.02):  # most samples contribute, or about the nearest twelve
+    for sigma in (0.3, 0.02):  # most samples contribute; only about twelve samples contribute
         peer = ["/usr/bin/python3", "-c", NUMPY, "grnn.json", "answer.json"]
         for name, some in (("grnn", queries), ("one", queries[count // 3:count // 3 + 1])):
             write(folder, name, {"analysis": {"grnn": {"sigma": sigma, "samples": samples, "queries": some}}})

@@ -1,11 +1,11 @@
-/// Adapter for Simbody 3.7: motions of rigid bodies with pins, and the rigid manipulator along its
-/// path.
+/// Adapter for Simbody 3.7: motions of rigid bodies with pins, and motions of the rigid manipulator
+/// along its path.
 ///
 /// A body that is pinned to the ground has one rotation as its coordinate. All other bodies move
-/// freely in the plane. Each of their pins is a pair of constraints that keep a point of one body
-/// in two planes of the other. The Runge-Kutta-Merson method integrates motions with an accuracy of
-/// 2e-10. Torques of the manipulator are the motion forces that Simbody requires for the
-/// accelerations of the proximal links.
+/// freely in the plane. Each pin of a free body is a pair of constraints that keep a point of one
+/// body in two planes of the other body. The Runge-Kutta-Merson method integrates motions with an
+/// accuracy of 2e-10. Torques of the manipulator are the motion forces that Simbody computes for
+/// prescribed accelerations of the proximal links.
 #include <Simbody.h>
 
 #include <fstream>
@@ -58,7 +58,7 @@ struct System {
         SimTK::MassProperties(mass, center, about_center.shiftFromMassCenter(center, mass)));
   }
 
-  /// Adds a pin, which keeps a point of one body at a point of another body.
+  /// Adds a pin, which makes a point of one body coincide with a point of another body.
   void pin(Place first, Place second) {
     for (const int axis : {0, 1}) {
       const SimTK::UnitVec3 normal{SimTK::CoordinateAxis(axis)};
@@ -279,7 +279,7 @@ struct Manipulator : System {
       bodies[low] = turning(solid(low, a), a);
       bodies[high] = MobilizedBody::Pin(bodies[low], b - a, solid(high, b), Vec3(0));
     }
-    const Vec3 p = point(mechanism["path"]["pose_m_rad"][0]);  // P is not the center of mass
+    const Vec3 p = point(mechanism["path"]["pose_m_rad"][0]);  // P, not the mass center
     bodies["platform"] = moving(solid("platform", p), p);
     for (const char* i : {"1", "2", "3"}) {
       const std::string n(i);
@@ -301,7 +301,7 @@ struct Manipulator : System {
   }
 };
 
-SimTK::Vector planar(const Json& row) {  // Simbody's coordinates begin with the angle
+SimTK::Vector planar(const Json& row) {  // Simbody's order: angle, x, y
   SimTK::Vector v(3);
   v[0] = row[2].get<double>();
   v[1] = row[0].get<double>();

@@ -1,7 +1,7 @@
 // Pendulum of peers.py in Simbody 3.7: a steel strip with a bob at its end, released in the
 // horizontal position. The strip is modeled by rigid rods and torsion springs of stiffness EI /
-// (rod length); the error is of order 2 in the rod length. The Runge-Kutta-Merson method was the
-// fastest of Simbody's integrators.
+// (rod length). The discretization error is of order 2 in the rod length. The Runge-Kutta-Merson
+// method was the fastest of Simbody's integrators.
 //   simbody_pendulum RODS ACCURACY    x and y of the bob at 0, 0.05, ..., 1 s [m]
 #include <Simbody.h>
 

@@ -2,7 +2,7 @@
 """Builds trammel with other compilers and options, runs the catalogue with each build, and compares the results with `trammel certify`.
 
 The comparison includes other modes of rounding. Builds and results of the same sources in OUT are reused. A build takes about ten
-minutes on two cores, and the rest half an hour. --write replaces the page's section and result.json. The exit status is 1 if a
+minutes on two cores, all other work half an hour. --write replaces the page's section and result.json. The exit status is 1 if a
 verdict differs or is missing, or if a run fails."""
 import argparse
 import json

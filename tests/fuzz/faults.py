@@ -51,7 +51,7 @@ class Bench:
         words = [self.program, self.command, str(self.folder / "own.json"), "--jobs", "2", "--out",
                  str(out or self.out)]
         if self.command == "report":
-            words.append("--fresh")  # otherwise it reuses stored runs
+            words.append("--fresh")  # computes again instead of reusing stored runs
         try:
             done = subprocess.run(words, env=surroundings, preexec_fn=before, timeout=240,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -128,7 +128,7 @@ def send_signals(faults, bench):
 
 
 def mount(folder, flags, options):
-    """Mounts a small disk, seen by the calling process alone."""
+    """Mounts a small disk that only the calling process can see."""
     library = ctypes.CDLL(None, use_errno=True)
     new_mounts, new_user, private = 0x20000, 0x10000000, 0x44000
     alone = library.unshare(new_mounts) == 0 or library.unshare(new_mounts | new_user) == 0
@@ -170,7 +170,7 @@ def change_surroundings(faults, bench):
 
 
 def locale_folder(folder, name):
-    """Returns a folder with a rare locale, which is made if its sources are installed."""
+    """Returns a folder with a rare locale, which is built if the locale sources are installed."""
     subprocess.run(["localedef", "-i", "de_DE", "-f", name.split(".")[1], str(folder / name)],
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
     return str(folder)
@@ -182,7 +182,7 @@ def main():
     parser.add_argument("library", help="to be loaded before the C library (inject.cpp)")
     parser.add_argument("--count", type=int, default=20, help="values of n where memory or disk fails")
     words = parser.parse_args()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell makes background processes ignore it
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # background processes of a shell ignore SIGINT by default
     faults = Faults()
     with tempfile.TemporaryDirectory(prefix="trammel-faults-") as folder:
         for command in ("run", "report"):

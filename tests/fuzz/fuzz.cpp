@@ -20,7 +20,7 @@
 #include "tests/fuzz/target.h"
 
 // Runs the program's readers and analysis code on invalid or unusual inputs, in a few forked
-// processes with many inputs each. Starts with the corpus of inputs with former findings.
+// processes with many inputs each. The inputs of the corpus, which once caused errors, run first.
 
 namespace trammel::fuzz {
 namespace {
@@ -38,7 +38,7 @@ struct Options {
   std::vector<fs::path> files;
 };
 
-/// State of the test of an input. It is in shared memory, and thus remains if the process dies.
+/// Progress and outcome of the test of an input, in shared memory that outlives the test process.
 struct Slot {
   enum class Stage { open, reading, computing, done } stage;
   Outcome outcome;
@@ -78,7 +78,7 @@ void test_batch(Board& board, const Maker& make, std::size_t first, std::size_t 
                 double limit_s) {
   const fs::path folder = fs::temp_directory_path() / ("trammel-fuzz-" + std::to_string(getpid()));
   fs::create_directories(folder);
-  std::cout.setstate(std::ios::badbit);  // the output of commands is not needed
+  std::cout.setstate(std::ios::badbit);  // discards the output of commands
   constexpr double kReading_s = 5;       // time for reading an input
   for (std::size_t i = first; i < last; ++i) {
     Slot& slot = board[i];
@@ -117,7 +117,7 @@ void test_all(Board& board, const Maker& make, const Options& options) {
       while (i < last && board[i].stage == Slot::Stage::done) ++i;
       if (i == last) return;
       const bool timed_out = outcome.termination == ProcessOutcome::Termination::timed_out ||
-                             outcome.text.find("signal 27,") != std::string::npos;  // SIGPROF
+                             outcome.text.find("signal 27,") != std::string::npos;  // timer
       const bool computing = board[i].stage == Slot::Stage::computing;
       const bool no_memory = outcome.termination == ProcessOutcome::Termination::out_of_memory;
       board[i].close(no_memory    ? Outcome::no_memory

@@ -258,7 +258,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
                                                Json::object(), Json::array({1, 2})});
       note("retyped");
       break;
-    case 5: {  // adds a key that the rule allows, or a key that it does not allow
+    case 5: {  // adds a key, which the rule may forbid
       const Json properties = rule.empty() ? json : rule.value("properties", Json::object());
       const std::string key =
           properties.empty() || below(random, 6) == 0
@@ -285,7 +285,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
     }
   }
   // The input is invalid if the new value breaks its schema rule. If the value was erased, the
-  // input is invalid if the object that contained it now breaks the rule of this object.
+  // input is invalid if the object that contained the value now breaks the rule of this object.
   if (!place.is_certain || json.contains("extends")) return;
   const Json found = json.value(at, Json());
   const bool erased = !json.contains(at);

@@ -30,7 +30,7 @@ def call(program, words, out, kill_after=None, number=None):
 
 
 def numbers(out):
-    """Returns the results without times, date and cases that measure times, the number of runs, and these cases."""
+    """Returns the results without times, date and cases that measure times; the number of runs; and the cases that measure times."""
     results = json.loads((out / "results.json").read_text())
     results["environment"].pop("date")
     results["environment"].pop("stored_runs", None)
@@ -57,7 +57,7 @@ def catalogue(program):
 def main():
     program, words = sys.argv[1], sys.argv[2:]
     words = words or catalogue(program)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell makes background processes ignore it
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # background processes of a shell ignore SIGINT by default
     chance = random.Random(1)
     with tempfile.TemporaryDirectory(prefix="trammel-resume-") as folder:
         whole, out = pathlib.Path(folder, "whole"), pathlib.Path(folder, "out")

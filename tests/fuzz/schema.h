@@ -5,8 +5,8 @@
 
 #include "harness/base/json.h"
 
-/// Second reader of the schemas in cases/schema. It determines the values that the rules forbid,
-/// independently of the reader under test.
+/// Second reader of the schemas in cases/schema, independent of the reader under test. It
+/// determines the values that the schema rules forbid.
 namespace trammel::fuzz {
 
 using harness::Json;
@@ -16,7 +16,7 @@ using harness::JsonPointer;
 struct Place {
   JsonPointer at;
   std::vector<const Json*> rules;  ///< alternative rules; empty if unknown
-  bool is_certain = false;         ///< enclosing values have no alternative rules
+  bool is_certain = false;         ///< true if no enclosing value has alternative rules
 };
 
 class Schema {

@@ -32,7 +32,7 @@ const Catalogue& catalogue() {
 }
 
 /// Computes and judges a variant as the command `run` does.
-/// @param all  includes sweeps and uncertainties
+/// @param all  true: also computes sweeps and uncertainties
 void compute(const Case& given, const std::string& variant, bool all) {
   const References references;
   const Document document = patched(given, variant);
@@ -97,7 +97,7 @@ void test_results(const fs::path& file, const fs::path& sample) {
   try {
     reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
-    throw InputError(error.what());  // reports do not use the error types of the harness
+    throw InputError(error.what());  // reports throw other error types
   }
   CommandOptions compare;
   compare.words = {file.string(), sample.string()};

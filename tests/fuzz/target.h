@@ -6,8 +6,8 @@
 
 #include "tests/fuzz/mutator.h"
 
-/// Code under test, which runs in this process. It reads an input file, computes the case in it and
-/// judges the results, as the program does.
+/// Code under test, which runs in the process of the fuzz test. It reads an input file, computes
+/// the case in the file and judges the results, as the program does.
 namespace trammel::fuzz {
 
 enum class Outcome { unfinished, valid, refused, no_memory, crash, hang, stopped, internal, wrong };

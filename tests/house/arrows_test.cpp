@@ -71,9 +71,9 @@ bool is_code(const fs::path& file) {
   return file.extension() == ".h" || file.extension() == ".cpp";
 }
 
-/// Table of rooms (source folders). Files may include headers of their room, of the rooms in its
-/// row, and of rooms that these rooms may include. The row of a single file replaces that of its
-/// room.
+/// Table of rooms (source folders). Files may include headers of their room, of the rooms in the
+/// table row of their room, and of rooms that those rooms may include. A row for a single file
+/// replaces the row of its room.
 struct Rooms {
   std::vector<std::string> order;
   std::map<std::string, std::string> arrows;  ///< the last cell of each row, as written
@@ -85,15 +85,15 @@ struct Rooms {
     return found;
   }
 
-  /// Returns the name of the row that applies to a file, or an empty text.
+  /// Returns the name of the table row that applies to a file, or an empty text.
   [[nodiscard]] std::string row_of(const std::string& file) const {
     const std::string folder = fs::path(file).parent_path().generic_string();
     return arrows.count(file) > 0 ? file : arrows.count(folder) > 0 ? folder : "";
   }
 };
 
-/// Resolves a name in a row: a room of the same top folder, a room with its full path, or a top
-/// folder for all its rooms.
+/// Resolves a name in a table row to rooms: a room of the same top folder, a room with its full
+/// path, or a top folder for all its rooms.
 std::vector<std::string> resolve(const std::string& name, const std::string& room,
                                  const std::vector<std::string>& order) {
   const auto has = [&](const std::string& key) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr long kSmallHeader = 15;  // largest number of code lines
+constexpr long kSmallHeader = 15;  // largest number of code lines of a small header
 
 struct Sizes {
   std::map<std::string, long> code_lines;  ///< of C++ by top folder; "python" for all folders

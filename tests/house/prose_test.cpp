@@ -19,7 +19,7 @@ namespace {
 const fs::path kRoot = TRAMMEL_SOURCE_DIR;
 constexpr std::size_t kLongSentence = 30, kLongTestName = 55;  // words, characters
 
-/// Fragments of texts that may break a rule, such as quotations. Each must occur in a text.
+/// Quotations and other fragments that may break a rule. Each fragment must occur in a text.
 const Strings kAllowed = {};
 
 std::regex words(const std::string& alternatives) {

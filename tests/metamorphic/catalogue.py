@@ -5,8 +5,8 @@ import copy
 import json
 
 Computation = collections.namedtuple("Computation", "name case is_slow")
-ONE_OF = ("analysis", "trajectory", "law", "method", "scheme")  # objects with one key, which another key replaces
-LEVELS = 3  # of a study: the first, the middle and the last of its values
+ONE_OF = ("analysis", "trajectory", "law", "method", "scheme")  # objects with exactly one key
+LEVELS = 3  # levels of a study: the first, middle and last of its values
 
 
 def merged(target, patch):

@@ -3,7 +3,7 @@
 import math
 import re
 
-ROUNDOFF = 1e-9  # times a tolerance of 1e-5 or less: below 1e-14 of the size, displacements are round-off error
+ROUNDOFF = 1e-9  # relative to the model size; with a tolerance of 1e-5, displacements below 1e-14 of the size are round-off
 TURNS = {"motion_phi_rad": "motion_m", "motion_velocity_phi_rad_per_s": "motion_velocity_m_per_s", "rotation_rad": "displacement_m", "end_rotation_rad": "displacement_m", "platform_rotation_rad": "displacement_m",
          "angular_velocity_rad_per_s": "velocity_m_per_s"}
 UNCOUNTED = re.compile(  # work, round-off and positions of extrema, which no law of mechanics determines
@@ -84,8 +84,8 @@ def kind(name):
 
 
 def scales(values, forces, size, stiffness):
-    """Returns the largest magnitude of each kind of quantity in a case. The scale of moments is that of forces, which includes
-    the applied forces, times the size of the model."""
+    """Returns the largest magnitude of each kind of quantity in a case. The scale of moments is the scale of forces times
+    the size of the model. The scale of forces includes the applied forces."""
     largest = {"_N": forces}
     for name, series in values.items():
         for value in series:
@@ -93,7 +93,7 @@ def scales(values, forces, size, stiffness):
                 largest[kind(name)] = max(largest.get(kind(name), 0.0), abs(value))
     for head in ("displacement_m", "velocity_m_per_s", "motion_velocity_m_per_s"):  # round-off error of positions is 1e-16 of the size
         largest[head] = max(largest.get(head, 0.0), ROUNDOFF * size)
-    for turn, length in TURNS.items():  # scale of rotations: displacement over the size of the model
+    for turn, length in TURNS.items():  # scale of rotations: largest displacement / model size
         largest[turn] = max(largest.get(turn, 0.0), largest.get(length, 0.0) / size)
     moved = largest.get("displacement_m", 0.0) / size
     largest["_N"] = max(largest["_N"], largest.get("_N_m", 0.0) / size, ROUNDOFF * moved * stiffness)
@@ -136,7 +136,7 @@ def differences(expected, obtained, tolerance, model, stated):
         if other is None or len(other) != len(series):
             found.append((name, f"{len(series)} values", "missing" if other is None else f"{len(other)} values", math.inf))
             continue
-        largest = scale.get(kind(name), 0.0) or 1.0  # all zero: absolute
+        largest = scale.get(kind(name), 0.0) or 1.0  # if all values are zero, the error is absolute
         turn = 2 * math.pi if ANGLE.match(name) else math.inf
         errors = [(abs(math.remainder(a - b, turn)) / largest, a, b) for a, b in zip(series, other)
                   if not (a == b or (a != a and b != b))]

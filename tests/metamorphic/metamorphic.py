@@ -56,7 +56,7 @@ def solve(program, folder, cases, seconds):
     shutil.rmtree(out, ignore_errors=True)
     answer = run_program(program, "run", *files, "--jobs", 1, "--out", out)
     if not (out / "results.json").exists():
-        if len(cases) > 1:  # one invalid file refuses the call
+        if len(cases) > 1:  # an invalid file stops the call for all cases
             return {n: r for name in cases for n, r in solve(program, folder, {name: cases[name]}, seconds).items()}
         lines = answer.stderr.strip().splitlines() or [""]
         return dict.fromkeys(cases, {"status": "refused", "reason": lines[-1]})
@@ -86,7 +86,7 @@ def compare(analysis, options, law, before, after, model):
     if options.get("whole_path"):  # step control selects the points of a path; only events and the end are predicted
         expected = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in expected.items()}
         obtained = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in obtained.items()}
-    if analysis == "harmonic":  # amplitudes, without phase
+    if analysis == "harmonic":  # amplitudes have no sign
         expected, obtained = ({n: [v and abs(v) for v in s] for n, s in q.items()} for q in (expected, obtained))
     stated = stated_roundoff(before["roundoff"], after["roundoff"])
     tolerance = TOLERANCE[analysis]

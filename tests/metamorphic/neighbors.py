@@ -158,7 +158,7 @@ def tails():
                              "ET": {"nodes": ["E", "T"], "section": "t"}},
                  "loads": {"O": {"node": "O", "force_N": [1, 0]}}}
         right = math.sqrt(spring / (mass * 1.2 ** 2 / 3)) / (2 * math.pi)
-        rounding = sys.float_info.epsilon * 3 * 1e13 * 1e-5 / 1.2 / spring  # of the arm's stiffness relative to the spring's
+        rounding = sys.float_info.epsilon * 3 * 1e13 * 1e-5 / 1.2 / spring  # round-off of the arm stiffness relative to the spring stiffness
         yield Neighbor("massless tail", f"{spring:g} N m/rad, tail of {length} m at {angle} rad", model,
                        {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right, 1e-5 + 5 * rounding)
 
@@ -355,7 +355,7 @@ def main():
             print(answer.stderr)
             return 1
         runs = {r["case"]: r for r in json.loads((folder / "out" / "results.json").read_text())["runs"]}
-        for name, file in refused.items():  # one invalid file refuses the call
+        for name, file in refused.items():  # an invalid file stops the call for all cases
             answer = run_program(sys.argv[1], "run", file)
             message = answer.stderr.partition(": ")[2].strip()
             runs[name] = {"status": f"exit status {answer.returncode}", "refused": message}

@@ -17,7 +17,7 @@ from transformations import multiply_loads
 
 SECONDS = 60
 LOAD_SHARE = 1e-5
-LINEAR_TOLERANCE = 1e-3  # large statics is nonlinear of the order of the load share times the slenderness squared
+LINEAR_TOLERANCE = 1e-3  # nonlinear terms are of the order of the load fraction times slenderness^2
 
 
 def base_model(rng):

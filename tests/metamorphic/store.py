@@ -37,7 +37,7 @@ def uncompressed(data):
 
 
 def numbers(data):
-    # The lowest bytes of all differences from the number two places before, then the next bytes, ...
+    # Each number is stored as the difference from the number two positions before: first the lowest bytes of all differences, then the next.
     count = len(data) // 8
     bits = [int.from_bytes(data[i::count], "little") for i in range(count)]
     for i in range(2, count):

@@ -153,7 +153,7 @@ def next_limb(text):
 
 
 def relabel(case):
-    """Gives every limb of a manipulator the number of the next one."""
+    """Renumbers the limbs of a manipulator cyclically."""
     model, _ = plane_only(case)
     if "manipulator" not in model:
         raise Skip("there is no manipulator")
@@ -188,7 +188,7 @@ def relabel(case):
     return case, Law(rename=lambda name: next_limb(name))
 
 
-# Defaults of the schema by definition.
+# Default values, as the schema defines them.
 DEFAULTS = {
     "model": {"elements": 1},
     "member": {"ends": ["welded", "welded"], "end_inertia_kg_m2": [0, 0]},
@@ -239,7 +239,7 @@ def stated(name, holder, key, has_effects):
     if key == "initial_state":
         return "rotating_frame" not in holder
     if key in ("second_order", "prestressed", "coriolis"):
-        return not has_effects  # effects state it instead
+        return not has_effects  # the key "effects" states this value instead
     if name == "grnn":
         return holder.get("surrogate") != "spline" and (key != "split" or "train" in holder)
     return True

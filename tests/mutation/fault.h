@@ -48,8 +48,8 @@ auto scaled(int number, const T& x) {
 }
 
 /// Factor that mutate.py inserts before the operand of a + or -. Its value is `whole` (1, or -1
-/// after an inserted sign) if the fault with this number is inactive, and `size` (-1, 0 or 1) if
-/// the fault is active.
+/// after an inserted sign) if the fault with this number is inactive. If the fault is active, its
+/// value is `size` (-1, 0 or 1).
 struct Factor {
   int number, size, whole = 1;
 };

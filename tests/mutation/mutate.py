@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Determines the seeded faults that the catalogue detects. One build contains all faults (seeding.py); one is active at a time.
 
-The environment names the active fault, and a mapped file records the faults that a case reaches. A first pass records these and the
-time of each case. Then each fault is active in the cases that reach it: expected families first, cheap cases first. The search ends
+The environment names the active fault, and a mapped file records the faults that a case reaches. A first pass records the reached faults and
+the time of each case. Then each fault is active in the cases that reach it: expected families first, cheap cases first. The search ends
 when a gate breaks by the exit status, a crash, or ten times the usual time. OUT/table.json contains the outcomes.
 
 The exit status is 1 if an outcome differs from the expected one."""
@@ -58,7 +58,7 @@ def failing_cases(out):
 
 
 class Probe:
-    """Case of the catalogue, or suite of tests, that may detect faults."""
+    """Probe: a case of the catalogue, or a suite of tests, that may detect faults."""
 
     def __init__(self, name, group, command):
         self.name, self.group, self.command = name, group, command

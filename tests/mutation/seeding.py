@@ -67,7 +67,7 @@ def switched(fault, old):
     if fault["old"] in OPERATORS:
         here = OPERATORS[fault["old"]]
         size = 0 if fault["new"].endswith("0 *") else -1
-        if not fault["new"]:  # the sign of the following operand
+        if not fault["new"]:  # the fault is a changed sign of the following operand
             return f"::trammel::Factor{{{number}, 1, -1}} *"
         return f"{old} ::trammel::" + here.format(number=number, size=size, old=fault["old"])
     if fault.get("kind") == "coefficient":
@@ -131,14 +131,14 @@ class Build:
         entry, made = self.rule[name], self.out / "objects" / name
         made.parent.mkdir(parents=True, exist_ok=True)
         source = pathlib.Path(entry["file"])
-        if source.is_relative_to(self.folder):  # a unity source
+        if source.is_relative_to(self.folder):  # unity build: a source that includes others
             copy = made.with_suffix(".cpp")
             copy.write_text(source.read_text().replace(f'"{ROOT}/', f'"{self.tree}/'))
         else:
             copy = self.tree / source.relative_to(ROOT)
         command = entry["command"].replace(f"-I{ROOT} ", f"-I{self.tree} ").replace(f" -c {source}", "")
         command = re.sub(r" -M[DTF]( \S+\.o(\.d)?)?", "", command).replace(f"-o {name}", f"-o {made}")
-        command = command.replace(" -O3 ", " -O1 ")  # the same bits in half the time; the bits are compared
+        command = command.replace(" -O3 ", " -O1 ")  # half the time; a comparison confirms the same bits
         command += f" -w -include {self.tree}/tests/mutation/fault.h -c {copy}"
         done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
         return done.stderr if done.returncode != 0 else ""

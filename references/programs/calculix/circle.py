@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""10 N on P of the manipulator of Table 1 along the paper's circle, by CalculiX: actuators locked, elbows welded, platform hinged.
+"""Statics of the manipulator of Table 1 under 10 N at P along the circle of the paper, by CalculiX.
 
     circle.py OUT      writes calculix-circle-* into OUT/references.json
 
-Each of eight points has the displacement of P and the forces on the ground. The platform is rigid, with a linear
-(planar_manipulator.py) and a large displacement, or it consists of three triangles of the platform material, with a large displacement.
-large_displacement.py computes the large ones. Their uncertainty, due to sections that warp at the elbows, is measured at each point.
+Actuators are locked, elbows welded, platform joints hinged. The results at eight points are the displacement of P and the forces of the
+ground. A rigid platform has linear (planar_manipulator.py) and large-displacement results (large_displacement.py). A platform of three
+triangles has large-displacement results. Their uncertainty, due to warping of the sections at the elbows, is measured at each point.
 """
 import math
 import sys
@@ -25,7 +25,7 @@ def poses():
 
 
 def response(pose, large, flexible):
-    """ux, uy of P [m] and the forces of the ground on A1, A2, A3 [N]."""
+    """Returns ux, uy of P [m] and the forces of the ground on A1, A2, A3 [N]."""
     lines, p, feet = large_displacement.build(pose, flexible)
     sets = [line for i, foot in enumerate(feet) for line in (f"*NSET,NSET=A{i}", *(f"{n}," for n in foot))]
     prints = [line for i in range(3) for line in (f"*NODE PRINT,NSET=A{i},FREQUENCY=1000,TOTALS=ONLY", "RF")]
@@ -52,10 +52,10 @@ def main():
             print(pose, name, displacement, forces, sum(forces[::2]), flush=True)
     warp, change = math.ceil(1e5 * warp) / 1e5, math.ceil(1e6 * max(change, 2e-6)) / 1e6
     for name, values in found.items():
-        forces = name.endswith("-forces")
+        forces, kind = name.endswith("-forces"), "flexible" if "flexible" in name else "rigid"
         what = "forces of the ground on A1, A2, A3 in x and y" if forces else "displacement x, y of P"
-        store(folder, f"calculix-circle-{name}", f"3-RRR, 10 N along x at P at {POINTS} points of the circle, {name.replace('-', ', ')}: by "
-              f"CalculiX, {what}", "N" if forces else "m", values, change if name == "rigid" else warp,
+        store(folder, f"calculix-circle-{name}", f"3-RRR, 10 N along x at P at {POINTS} points of the circle, "
+              f"{kind} platform{', large displacement' * ('large' in name)}: {what}, by CalculiX", "N" if forces else "m", values, change if name == "rigid" else warp,
               "Actuators locked, elbows welded, platform joints hinged. The values are in the order of the points from the start of the circle. " +
               (f"{MESHES[1]} elements along a link." if name == "rigid" else
                "The uncertainty is the largest increase of the linear displacement due to warping of the sections at the elbows."))

@@ -22,7 +22,7 @@ from planar_manipulator import DEFAULT, DEPTH, MATERIAL, Deck, E, geometry, run,
 
 STIFF, ALONG, STEPS = 1e3, 4, (400, 800)
 RADIUS, CENTER = 0.01, (0.25, 0.144)
-POINTS, DURATION = 10, 2.5  # the latter in half periods
+POINTS, DURATION = 10, 2.5  # number of output times; duration in half periods
 
 
 def angle(u):
@@ -36,12 +36,12 @@ def pose(angle):
 
 
 def places(angle):
-    """A, B, C of each limb with P at this angle."""
+    """Returns A, B, C of each limb if P is at this angle on the circle."""
     return list(zip(*geometry({**DEFAULT, "pose": pose(angle)})))
 
 
 def build(along):
-    """Lines of the deck; nodes and offsets of the feet, the node P, and for each node the ends of its link."""
+    """Returns the lines of the deck, nodes and offsets of the feet, the node P, and for each node the ends of its link."""
     deck, same, feet, corners, limbs = Deck(), {}, [], [], {}
     for i, (a, b, c) in enumerate(places(0.0)):
         before = len(deck.nodes)
@@ -66,7 +66,7 @@ def build(along):
 
 
 def motion(speed, along, steps):
-    """Distance of P from the circle at POINTS points [m]."""
+    """Returns the distance of P from its nominal position on the circle, in x and y, at POINTS times [m]."""
     lines, feet, p = build(along)
     end = DURATION * math.pi / speed
     first = places(0.0)
@@ -95,8 +95,8 @@ def main():
         coarse, fine = (motion(speed, ALONG, steps) for steps in STEPS)
         size = max(map(abs, fine))
         change = max(abs(a - b) for a, b in zip(coarse, fine)) / size
-        store(folder, f"calculix-motion-{speed}", f"Flexible 3-RRR along the circle at {speed} rad/s, from rest: how far P is from the path, x "
-              f"and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
+        store(folder, f"calculix-motion-{speed}", f"Flexible 3-RRR along the circle at {speed} rad/s, from rest: distance of P from the path in x "
+              f"and y at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
               f"Elements CPS8R: {ALONG} along a link and {DEPTH} over its thickness, {STEPS[1]} time steps. The uncertainty is the largest change with "
               f"{STEPS[0]} steps, relative to the largest value. Actuators driven, hinges at elbows and platform, rigid platform, no damping.")
         print(speed, change, fine, flush=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Motion of the flexible manipulator of Table 1 under the torques of rigid links, by CalculiX: elbows and platform on hinges, undamped.
+"""Motion of the flexible, undamped manipulator of Table 1 (hinged elbows) under the torques of rigid links, by CalculiX.
 
     forward_dynamics.py OUT      writes calculix-forward-dynamics into OUT/references.json
 
@@ -17,10 +17,10 @@ import sys
 from circle_motion import build
 from planar_manipulator import DEFAULT, DEPTH, geometry, run, store
 
-START, END, DURATION = (0.26, 0.144, 0.0), (0.235, 0.16, 0.1), 0.1  # poses [m, rad], the time from one to the other [s]
-WATCHED, POINTS = 0.15, 10  # [s]
+START, END, DURATION = (0.26, 0.144, 0.0), (0.235, 0.16, 0.1), 0.1  # start and end pose [m, rad], time between them [s]
+WATCHED, POINTS = 0.15, 10  # simulated time [s], number of output times
 MESHES = ((4, 800), (8, 1600))  # elements along a link, steps
-TURN, TICK = 1e-5, 1e-4  # of virtual displacements [m, rad] and of differences in time [s]
+TURN, TICK = 1e-5, 1e-4  # steps of the finite differences: virtual displacements [m, rad], time [s]
 
 
 def pose(t):
@@ -29,13 +29,13 @@ def pose(t):
 
 
 def bodies(at):
-    """(x, y, angle) of the middles of the six links and of the platform at this pose."""
+    """Returns (x, y, angle) of the centers of the six links and of the platform at a pose."""
     links = [pair for limb in zip(*geometry({**DEFAULT, "pose": at})) for pair in zip(limb, limb[1:])]
     return [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, math.atan2(q[1] - p[1], q[0] - p[0])) for p, q in links] + [at]
 
 
 def inertias():
-    """(mass, moment of inertia about the middle) of the same."""
+    """Returns (mass, moment of inertia about the center) of the six links and of the platform."""
     link = DEFAULT["rho"] * DEFAULT["width"] * DEFAULT["thickness"]
     plate = DEFAULT["rho"] * math.sqrt(3) / 4 * DEFAULT["side"]**2 * DEFAULT["plate_thickness"]
     limb = [math.dist(*pair) for at in [geometry({**DEFAULT, "pose": START})] for i in range(3)
@@ -44,14 +44,14 @@ def inertias():
 
 
 def solved(matrix, right):
-    """Cramer's rule for three unknowns."""
+    """Solves three linear equations by Cramer's rule."""
     def det(m):
         return sum(m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]) for i in range(3))
     return [det([[right[r] if c == k else matrix[r][c] for c in range(3)] for r in range(3)]) / det(matrix) for k in range(3)]
 
 
 def torques(t):
-    """Torques of the three actuators on rigid links [N m]."""
+    """Returns the torques of the three actuators on rigid links [N m]."""
     at = pose(t)
     before, now, after = (bodies(pose(t + s * TICK)) for s in (-1, 0, 1))
     second = [[(a - 2 * b + c) / TICK**2 for a, b, c in zip(*body)] for body in zip(before, now, after)]
@@ -65,7 +65,7 @@ def torques(t):
 
 
 def motion(along, steps, angles=None):
-    """Distance of P from the line at POINTS points [m], and angles of the feet at each step. Without angles the forces are along rigid links."""
+    """Returns the distance of P from the line at POINTS times [m], and the angles of the feet at each step. By default, angles are rigid."""
     lines, feet, p = build(along)
     times = [WATCHED * i / steps for i in range(steps + 1)]
     table = [(t, bodies(pose(t)), torques(t)) for t in times]
@@ -99,8 +99,8 @@ def main():
     folder = sys.argv[1]
     coarse, fine = (motion(*mesh, motion(*mesh)[1])[0] for mesh in MESHES)
     change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
-    store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "
-          f"x and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
+    store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: distance of P from the line in "
+          f"x and y at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
           f"Elements CPS8R: {MESHES[1][0]} along a link and {DEPTH} over its thickness, {MESHES[1][1]} time steps. The uncertainty is the largest change "
           f"with {MESHES[0][0]} elements and {MESHES[0][1]} steps, relative to the largest value. Hinges at elbows and platform, rigid platform, no damping.")
     print(change, fine, flush=True)

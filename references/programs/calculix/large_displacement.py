@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""10 N on P of the manipulator of Table 1 with large displacement, by CalculiX: actuators locked, elbows welded, platform hinged.
+"""Large-displacement statics of the manipulator of Table 1 (locked, welded, hinged) under 10 N at P, by CalculiX.
 
     large_displacement.py OUT      writes calculix-large-POSE-displacement into OUT/references.json
 
@@ -23,7 +23,7 @@ def turns_left(nodes, triangle):
 
 
 def build(pose, flexible=False):
-    """The deck, the node P and the nodes of the three feet. A flexible platform has the material and thickness of Table 1."""
+    """Returns the deck, the node P and the nodes of the three feet. A flexible platform has the material and thickness of Table 1."""
     base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
     deck, joints, ends, feet, same = Deck(), [], [], [], {}
     for a, b, c in zip(base, elbows, corners):
@@ -44,13 +44,13 @@ def build(pose, flexible=False):
     plate, width = ((E, DEFAULT["nu"]), DEFAULT["plate_thickness"]) if flexible else ((E * STIFF, 0.0), DEFAULT["width"])
     return deck.mesh(elements) + deck.rest + MATERIAL + [
         *deck.sections, "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}",
-        "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # contracts in its plane alone: out of it, ccx hinders that
+        "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # no contraction across the plane, which ccx hinders
         "{0},{0},{0},{1},0,0,{2:.12g},{2:.12g}".format(*plate, plate[0] / 2 / (1 + plate[1])), f"{plate[0] / 2 / (1 + plate[1]):.12g}",
         "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=PLATE", f"{width!r}"], p, feet
 
 
 def displacement(pose, large):
-    """ux, uy of P [m]."""
+    """Returns ux, uy of P [m]."""
     lines, p, _ = build(pose)
     rows = run(lines + ["*NSET,NSET=P", f"{p}", "*STEP,NLGEOM,INC=1000" if large else "*STEP", "*STATIC", "0.1,1.", "*CLOAD", f"{p},1,10.",
                         "*NODE PRINT,NSET=P,FREQUENCY=1000", "U", "*END STEP"])
@@ -63,8 +63,8 @@ def main():
         linear, large, rigid = displacement(pose, False), displacement(pose, True), statics("locked-welded-hinged", pose, 24)
         change = math.ceil(1e5 * math.dist(linear, rigid[:2]) / math.hypot(*linear)) / 1e5
         store(folder, f"calculix-large-{pose}-displacement",
-              f"3-RRR, actuators locked, elbows welded, platform joints hinged, pose {pose}: by CalculiX, displacement x, y of P under 10 N "
-              "along x, large", "m", large, change,
+              f"3-RRR, actuators locked, elbows welded, platform joints hinged, pose {pose}: displacement x, y of P under 10 N "
+              "along x, large-displacement theory, by CalculiX", "m", large, change,
               f"Elements CPS8R: {ALONG} along a link and {DEPTH} over its thickness. Elbows and platform are {STIFF:g} times as stiff as the links. "
               "The uncertainty is the relative change of the displacement of P with rigid joints in linear statics.")
         print(pose, change, linear, large, rigid, flush=True)

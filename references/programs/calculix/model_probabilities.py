@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Probabilities of all readings of Table 2, given each printed row: the models that its authors may have used.
+"""Probabilities of all interpretations ("readings") of Table 2, that is, of the models that its authors may have used, given a printed row.
 
     model_probabilities.py TRAMMEL OUT      writes table-2-models and table-2-models-planar into OUT/references.json
 """
-# model_probabilities.json has the factors of which each combination is a reading, all equally probable, and the readings in space
-# (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of the unknowns, linear
-# in them: thickness within its printed digits, mesh between one element a link and four, one stiffness of all sprung joints (its logarithm),
-# and the pose, centered or on a circle. Frequencies in the plane are trammel's. A row is any choice of a reading's lowest frequencies.
+# model_probabilities.json contains factors. Each combination of factors is a reading of the same prior probability. The file also names the
+# readings in space (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of
+# the unknowns, linear in them: thickness within its printed digits, mesh between one element a link and four, one stiffness of all sprung
+# joints (its logarithm), and the pose, centered or on a circle. Frequencies in the plane are trammel's. A row is any choice of a reading's
+# lowest frequencies.
 import concurrent.futures
 import itertools
 import json
@@ -22,11 +23,11 @@ import numpy as np
 from spatial_manipulator import store
 
 HERE = pathlib.Path(__file__).resolve().parent
-CANDIDATES, SIZE, ANGLES = 7, 6, 4  # frequencies of which the row is SIZE; angles in a third of the circle: the rest is the same by symmetry
-TURNED, THICKNESS, NUMBERS = CANDIDATES, CANDIDATES + 1, CANDIDATES + 2  # further numbers of a cell
+CANDIDATES, SIZE, ANGLES = 7, 6, 4  # SIZE of CANDIDATES frequencies are a row; angles in a third of the circle (symmetry)
+TURNED, THICKNESS, NUMBERS = CANDIDATES, CANDIDATES + 1, CANDIDATES + 2  # indices of further numbers of a cell
 CHOICES = np.array(list(itertools.combinations(range(CANDIDATES), SIZE)))
-EVEN = 1 / math.sqrt(12)  # standard deviation of an even distribution of width 1
-STEP = 0.01  # relative, of the difference by thickness
+EVEN = 1 / math.sqrt(12)  # standard deviation of a uniform distribution of width 1
+STEP = 0.01  # relative step of the thickness for finite differences
 LISTED, CREDIBLE, NEGLIGIBLE = 8, 0.95, 1e-9
 
 
@@ -69,7 +70,7 @@ def log_frequencies(trammel, model):
 
 
 def node(trammel, model, inputs):
-    """Returns the numbers at the center and on the circle, and how thickness and mesh change those at the center."""
+    """Returns the numbers at the center and on the circle, and the changes of the numbers at the center with thickness and mesh."""
     links, pose, radius = model["manipulator"]["links"], inputs["pose"], inputs["circle_radius_m"]
     circle = {"center_m": [pose["x_m"], pose["y_m"]], "radius_m": radius, "points": 13, "step_s": math.pi / 6, "phi_rad": pose["phi_rad"]}
     turned = {**pose, "phi_rad": pose["phi_rad"] + inputs["turned_rad"]}
@@ -88,14 +89,14 @@ def node(trammel, model, inputs):
 
 
 class Reading:
-    """Prediction of a reading: numbers and their derivatives times standard deviations, in each cell of its unknowns."""
+    """Prediction of a reading in each cell of its unknowns: numbers, and their derivatives times standard deviations."""
 
     def __init__(self, title, weights, numbers, spread, noise=0.0):
         self.title, self.weights, self.numbers, self.spread, self.noise = title, np.array(weights), np.array(numbers), np.array(spread), noise
 
     def gaussian(self, choices, variance):
-        """Returns mean, spread and Cholesky factor of the covariance of the chosen numbers, and where they are predicted; `variance` is
-        that of the row."""
+        """Returns mean, spread and Cholesky factor of the covariance of the chosen numbers, and True where they are predicted.
+        `variance` is the variance of the row."""
         mean, spread = self.numbers[:, choices], self.spread[:, choices]
         valid = np.isfinite(mean).all(-1)
         covariance = spread @ np.swapaxes(spread, -1, -2) + np.diag(variance + self.noise ** 2)
@@ -116,7 +117,7 @@ def planar_reading(title, nodes):
 
 
 def planar_readings(trammel, inputs):
-    """Returns the readings of all combinations, and those that have no meaning."""
+    """Returns the readings of all combinations, and the combinations that the program refuses."""
     (low, high), points = inputs["stiffness_N_m_per_rad"]["between"], inputs["stiffness_N_m_per_rad"]["points"]
 
     def read(combination):
@@ -148,7 +149,7 @@ def stored_readings(stored):
         for i, name in enumerate(names):
             values = reference(name)["values"][:CANDIDATES]
             numbers[i, :len(values)], numbers[i, THICKNESS] = np.log(values), LOG_THICKNESS
-            spread[i, [*range(len(values)), THICKNESS]] = 2 * HALF_WIDTH * EVEN  # frequencies as bending of links with their mass
+            spread[i, [*range(len(values)), THICKNESS]] = 2 * HALF_WIDTH * EVEN  # frequencies depend on the thickness as those of bending links
         yield Reading(title, [1 / len(names)] * len(names), numbers, spread, stored["noise"])
 
 
@@ -158,7 +159,7 @@ def entropy(probabilities):
 
 
 def same_within_noise(leader, other, variance):
-    """Returns whether the rows of two readings with the same cells differ by less than the noise."""
+    """Returns True if the rows of two readings with the same cells differ by less than the noise."""
     if len(leader.weights) != len(other.weights) or leader.noise != other.noise:
         return False
     mean, _, factor, valid = leader.gaussian(np.arange(SIZE), variance)
@@ -227,7 +228,7 @@ def table(readings, priors, name, discrepancy):
     for k, members in enumerate(classes[:LISTED]):
         cell = next((cell for cell in cells if owner[cell[1]] == k), None)
         if cell is None:
-            break  # of no probability
+            break  # negligible probability
         values = np.exp(cell[3] + cell[4] @ (cell[4].T @ gain(cell, x - cell[3])))
         leading.append({"title": readings[members[0]].title, "readings": len(members), "probability": of_class[k], "values": list(values)})
     width = math.hypot(discrepancy, digits.max())

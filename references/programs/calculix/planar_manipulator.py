@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The 3-RRR manipulator of Table 1 in its plane by CalculiX: modes in every variant of its joints at three poses, and 10 N at P.
+"""Modes of the planar 3-RRR manipulator of Table 1 for all variants of its joints at three poses, and statics under 10 N at P, by CalculiX.
 
     planar_manipulator.py OUT      writes calculix-VARIANT-POSE-frequencies and -displacement into OUT/references.json
 
@@ -17,7 +17,7 @@ from spatial_manipulator import DEFAULT, geometry, run, store
 
 POSES = {"centroid": DEFAULT["pose"], "start": (0.26, 0.144, 0.0), "turned": (0.26, 0.144, math.radians(10))}
 VARIANTS = [f"{a}-{e}-{p}" for a in ("locked", "sprung", "free") for e in ("welded", "hinged") for p in ("hinged", "welded")]
-SPRING = 10.0  # of a sprung actuator [N m/rad]
+SPRING = 10.0  # stiffness of a sprung actuator [N m/rad]
 MESHES = (24, 40)  # elements along a link
 DEPTH = 2
 E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
@@ -33,7 +33,7 @@ class Deck:
         return len(self.nodes)
 
     def link(self, p, q, n):
-        """Eight-node quadrilaterals from p to q; returns the nodes of its two ends."""
+        """Adds a link of eight-node quadrilaterals from p to q. Returns the nodes of both end sections."""
         length, h = math.dist(p, q), DEFAULT["thickness"]
         c, s = (q[0] - p[0]) / length, (q[1] - p[1]) / length
         name = f"L{len(self.sections)}"
@@ -51,7 +51,7 @@ class Deck:
         return rows[0], rows[-1]
 
     def rigid(self, nodes, place):
-        """Nodes of displacement and of rotation of a rigid body."""
+        """Adds a rigid body. Returns the nodes of its displacement and of its rotation."""
         self.bodies += 1
         reference, turn = self.node(*place), self.node(*place)
         self.rest += [f"*NSET,NSET=R{self.bodies}", *(f"{n}," for n in nodes),
@@ -88,7 +88,7 @@ def build(variant, pose, n):
             welded += end
         else:
             deck.hinge(deck.rigid(end, c)[0], corner)
-    weights = [deck.node(*place) for place in [r["pose"][:2], *corners]]  # nodes that others follow cannot have a mass in ccx
+    weights = [deck.node(*place) for place in [r["pose"][:2], *corners]]  # in ccx, a reference node of a rigid body cannot have a mass
     p, turn = deck.rigid(body + weights + welded, r["pose"][:2])
     mass = DEFAULT["rho"] * math.sqrt(3) / 4 * r["side"]**2 * r["plate_thickness"]
     for i, node in enumerate(weights):
@@ -101,7 +101,7 @@ def build(variant, pose, n):
         if active == "locked":
             deck.rest.append(f"{angle},3")
         elif active == "sprung":
-            follower = deck.node(*base[i])  # ccx 2.20 fails with a spring on the rotation of a rigid body itself
+            follower = deck.node(*base[i])  # extra node: ccx 2.20 fails with a spring on the rotation node of a rigid body
             deck.elements.append(("SPRING1", f"S{i}", [follower]))
             deck.rest += ["*BOUNDARY", f"{follower},2,3", "*EQUATION", "2", f"{follower},1,1.,{angle},3,-1.", f"*SPRING,ELSET=S{i}", "1", f"{SPRING!r}"]
     return deck.mesh(deck.elements) + deck.rest + MATERIAL + ["*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections], p, turn
@@ -116,7 +116,7 @@ def frequencies(variant, pose, n):
 
 
 def statics(variant, pose, n):
-    """ux, uy [m] and rotation [rad] of P under 10 N along x."""
+    """Returns ux, uy [m] and rotation [rad] of P under 10 N along x."""
     lines, p, turn = build(variant, pose, n)
     rows = run(lines + [f"*NSET,NSET=P", f"{p},{turn}", "*STEP", "*STATIC", "*CLOAD", f"{p},1,10.", "*NODE PRINT,NSET=P", "U", "*END STEP"])
     return rows[0][1:3] + [rows[1][3]]
@@ -129,16 +129,16 @@ def main():
             (coarse, _), (fine, rigid) = (frequencies(variant, pose, n) for n in MESHES)
             change = max(2e-6, max(abs(a / b - 1) for a, b in zip(coarse, fine)))
             change = math.ceil(change * 1e6) / 1e6
-            notes = (f"Elements CPS8R: {MESHES[1]} along a link and {DEPTH} over its thickness. With {MESHES[0]} along a link, the values change by "
+            notes = (f"Elements CPS8R: {MESHES[1]} along a link and {DEPTH} over its thickness. With {MESHES[0]} elements along a link, the values change by "
                      f"no more than the uncertainty. Rigid platform." + (f" {rigid} rigid motions at 0 Hz are omitted." if rigid else ""))
             words = variant.split("-")
-            title = f"3-RRR, actuators {words[0]}, elbows {words[1]}, platform joints {words[2]}, pose {pose}: by CalculiX"
-            store(folder, f"calculix-{variant}-{pose}-frequencies", title, "Hz", fine, change, notes)
+            title = f"3-RRR, actuators {words[0]}, elbows {words[1]}, platform joints {words[2]}, pose {pose}: "
+            store(folder, f"calculix-{variant}-{pose}-frequencies", title + "eight elastic frequencies by CalculiX", "Hz", fine, change, notes)
             print(variant, pose, rigid, change, *fine, flush=True)
             if rigid == 0 and words[0] != "free":
                 a, b = (statics(variant, pose, n) for n in MESHES)
                 change = math.ceil(max(2e-6, max(abs(u - v) for u, v in zip(a[:2], b[:2])) / max(map(abs, b[:2]))) * 1e6) / 1e6
-                store(folder, f"calculix-{variant}-{pose}-displacement", title + ", displacement x, y of P under 10 N along x", "m",
+                store(folder, f"calculix-{variant}-{pose}-displacement", title + "displacement x, y of P under 10 N along x, by CalculiX", "m",
                       b[:2], change, notes)
                 print("   statics", change, b, flush=True)
 

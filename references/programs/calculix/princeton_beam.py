@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The Princeton beam as a solid, by CalculiX: tip displacement with large displacement under dead loads along its depth.
+"""Large tip displacements of the Princeton beam under dead loads, as a solid, by CalculiX.
 
     princeton_beam.py OUT      writes calculix-princeton-AXIS and -AXIS-without-contraction into OUT/references.json
 
 The elements are C3D20R. Every motion of the clamped face is fixed, the consistent loads of the bricks spread the load over the end
-face, and the tip is the middle of that face. Without Poisson's ratio the clamp does not prevent contraction. By default ccx ends
+face, and the tip is the middle of that face. If Poisson's ratio is 0, the clamp does not prevent contraction. By default ccx ends
 Newton's iteration at 0.5 % of the force, which leaves an error of 0.2 % in the soft direction. Here it ends at 1e-9.
 """
 import math
@@ -18,7 +18,7 @@ LOADS = (8.896, 13.345)
 
 
 def build(depth, width, nu, cells):
-    """Nodes at half cells, those of the bricks' faces and bodies left out; x along, y over the depth."""
+    """Returns the nodes of 20-node bricks on a grid of half cells; x is along the beam, y over the depth."""
     number, lines = {}, ["*NODE"]
     size = [(LENGTH, 2 * cells[0]), (depth, 2 * cells[1]), (width, 2 * cells[2])]
 
@@ -58,7 +58,7 @@ def build(depth, width, nu, cells):
 
 
 def tip(axis, nu, cells):
-    """ux, uy [m] under each load."""
+    """Returns ux, uy of the tip [m] under each load."""
     depth, width = SECTIONS[axis]
     lines, share = build(depth, width, nu, cells)
     values = []
@@ -76,7 +76,7 @@ def main():
             rough, values = tip(axis, nu, coarse), tip(axis, nu, fine)
             change = max(2e-6, *(abs(a / b - 1) for a, b in zip(rough[1::2], values[1::2])))
             store(folder, f"calculix-princeton-{axis}{name}", f"Princeton beam, bent about its {axis} axis, as a solid of Poisson's "
-                  f"ratio {nu:g}: by CalculiX, deflection of its tip", "m", values[1::2], math.ceil(change * 1e6) / 1e6,
+                  f"ratio {nu:g}: tip deflection by CalculiX", "m", values[1::2], math.ceil(change * 1e6) / 1e6,
                   f"Elements C3D20R: {fine[0]} along the beam, {fine[1]} over the depth, {fine[2]} over the width. With {coarse[0]} x {coarse[1]} x "
                   f"{coarse[2]} elements, the values change by the uncertainty.")
 

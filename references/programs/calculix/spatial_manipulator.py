@@ -1,8 +1,8 @@
 """Modes of the 3-RRR manipulator of Table 1 in space, by CalculiX: links and platform are solids (C3D20R).
 
-modes(reading) writes a deck, runs ccx and returns natural frequencies [Hz] and a mark for modes in the plane. A reading is a dict of
-what the paper leaves open. DEFAULT contains the data of Table 1, with all joints bonded. A joint is a rigid body of the end faces of
-the links and of a square patch in a corner of the plate. A hinge consists of two such bodies that rotate relative to each other about z.
+modes(reading) writes a deck, runs ccx and returns natural frequencies [Hz] and a mark for modes in the plane. A reading is a dict of data
+that the paper leaves open. DEFAULT contains Table 1, with all joints bonded. A joint is a rigid body of the end faces of the links and of
+a square patch in a corner of the plate. A hinge consists of two such bodies that rotate relative to each other about z.
 """
 import json
 import math
@@ -13,19 +13,19 @@ import tempfile
 
 DEFAULT = {
     "pose": (0.25, 0.5 / math.sqrt(12), 0.0),  # x, y of P [m], orientation [rad]
-    "joints": "bbb bbb bbb",  # a limb each: active, elbow, platform joint; b: bonded, h: hinge about z, t: free to tilt about x and y
+    "joints": "bbb bbb bbb",  # active, elbow and platform joint of each limb; b: bonded, h: hinge about z, t: free to tilt about x and y
     "thickness": 0.0015, "width": 0.03, "length": 0.2, "on_edge": True,  # links [m]; on edge: the width is along z
-    "side": 0.2, "plate_thickness": 0.0015, "plate_level": 0.0,  # [m]; level: of its middle over the links' middle
-    "patch": 0.003,  # side of the patch of the plate that a joint holds [m]
+    "side": 0.2, "plate_thickness": 0.0015, "plate_level": 0.0,  # [m]; level: height of the mid-plane above that of the links
+    "patch": 0.003,  # side of the square patch of the plate that is bonded to a joint [m]
     "E": 69e9, "rho": 2700.0, "nu": 0.33,
-    "link_mass": None, "plate_mass": None,  # from density where None [kg]
-    "joint_masses": (0.0, 0.0),  # of each elbow, of each platform joint [kg]
+    "link_mass": None, "plate_mass": None,  # [kg]; None: from density
+    "joint_masses": (0.0, 0.0),  # mass of each elbow, mass of each platform joint [kg]
 }
-MESH = {"along": 12, "across": 2, "plate": 6}  # elements of a link, over its width, along half a side of the plate
+MESH = {"along": 12, "across": 2, "plate": 6}  # elements along a link, over its width, and along half a side of the plate
 
 
 def elbow(a, c, length):
-    """B of a limb, clockwise from A C (the paper's working mode)."""
+    """Returns the elbow B of a limb on the clockwise side of A C (the working mode of the paper)."""
     dx, dy = c[0] - a[0], c[1] - a[1]
     angle = math.atan2(dy, dx) - math.acos(math.hypot(dx, dy) / (2 * length))
     return a[0] + length * math.cos(angle), a[1] + length * math.sin(angle)
@@ -44,7 +44,7 @@ class Deck:
         self.nodes, self.parts, self.elements, self.rest, self.sets = [], {}, [], [], 0
 
     def node(self, place, part=None):
-        """A new node, or the existing one of this part at this place."""
+        """Returns a new node, or the existing node of this part at this position."""
         key = (part, *(round(v, 9) for v in place))
         if part is not None and key in self.parts:
             return self.parts[key]
@@ -54,7 +54,7 @@ class Deck:
         return len(self.nodes)
 
     def block(self, name, part, counts, place):
-        """C3D20R over a grid; place(i, j, k) of a node at half steps. Returns the function from (i, j, k) to node."""
+        """Adds C3D20R elements on a grid with node positions place(i, j, k) at half steps. Returns a function from (i, j, k) to the node."""
         at = lambda i, j, k: self.node(place(i, j, k), part)
         bottom = [(0, 0), (2, 0), (2, 2), (0, 2)]
         middle = [(1, 0), (2, 1), (1, 2), (0, 1)]
@@ -67,7 +67,7 @@ class Deck:
         return at
 
     def rigid(self, nodes, place):
-        """A rigid body of these nodes: its nodes of displacement and of rotation."""
+        """Adds a rigid body of these nodes. Returns the nodes of its displacement and of its rotation."""
         self.sets += 1
         reference, turn = self.node(place), self.node(place)
         self.rest += [f"*NSET,NSET=R{self.sets}", *(f"{n}," for n in sorted(set(nodes))),
@@ -90,7 +90,7 @@ class Deck:
 
 
 def link(deck, name, r, mesh, p, q):
-    """A straight solid from p to q; returns the nodes of its two end faces."""
+    """Adds a straight solid from p to q. Returns the nodes of its two end faces."""
     length = math.hypot(q[0] - p[0], q[1] - p[1])
     c, s = (q[0] - p[0]) / length, (q[1] - p[1]) / length
     depth, height = (r["thickness"], r["width"]) if r["on_edge"] else (r["width"], r["thickness"])
@@ -108,11 +108,11 @@ def link(deck, name, r, mesh, p, q):
 
 
 def plate(deck, r, mesh, corners):
-    """Three quadrilaterals from P, two mid-sides and a corner. The cell in the corner has the size of the patch, and the others shrink
-    to about twice that toward it."""
+    """Adds the plate as three quadrilaterals, each between P, two mid-sides and a corner. The cell in a corner has the size of the patch.
+    The other cells shrink toward the corner, to about twice this size."""
     center, n, t = r["pose"][:2], mesh["plate"], r["plate_thickness"]
     share = r["patch"] / (r["side"] / 2)
-    shrink = min(1.0, (2 * share)**(1 / n))  # from one cell to the next
+    shrink = min(1.0, (2 * share)**(1 / n))  # ratio of sizes of successive cells
     ends = [sum(shrink**i for i in range(cells)) for cells in range(n + 1)]
     grid = [(1 - share) * (ends[i // 2] + ends[(i + 1) // 2]) / 2 / ends[n] for i in range(2 * n + 1)] + [1 - share / 2, 1.0]
     patches = []
@@ -160,7 +160,7 @@ def build(r, mesh):
 
 
 def run(lines, totals=False):
-    """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
+    """Returns the rows of the .dat file that begin with an integer, and with `totals` also rows of three numbers."""
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "deck.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
         done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -173,7 +173,7 @@ def run(lines, totals=False):
 
 
 def store(folder, name, title, unit, values, change, notes, place="", source="calculix-2.20", **more):
-    """Adds a reference to references.json in a folder, which is made if need be."""
+    """Adds a reference to references.json in a folder, which is created if it is absent."""
     path = pathlib.Path(folder, "references.json")
     path.parent.mkdir(parents=True, exist_ok=True)
     family = json.loads(path.read_text()) if path.exists() else {}
@@ -184,7 +184,7 @@ def store(folder, name, title, unit, values, change, notes, place="", source="ca
 
 
 def modes(reading, mesh=None, count=8):
-    """Each mode's natural frequency [Hz], and whether it stays in the plane by its effective masses."""
+    """Returns the natural frequency of each mode [Hz], and True for modes in the plane, as their effective masses show."""
     number = run(build({**DEFAULT, **reading}, {**MESH, **(mesh or {})}).lines(count))
     frequencies = [row[3] for row in number if len(row) == 5][:count]
     masses = [row[1:] for row in number if len(row) == 7][count:2 * count]  # the first block holds participation factors

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The 3-RRR manipulator of Table 1 in its plane by GetFEM: modes in every variant of its joints at three poses, and 10 N at P.
+"""Modes of the planar 3-RRR manipulator of Table 1 for all variants of its joints at three poses, and statics under 10 N at P, by GetFEM.
 The platform is rigid, or (locked, welded, hinged) a soft plate of three triangles, linear or quadratic.
 
     manipulator_in_plane.py OUT      writes getfem-JOINTS-frequencies and -displacement into OUT/references.json, pose after pose
@@ -23,11 +23,11 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from planar_manipulator import DEFAULT, POSES, SPRING, VARIANTS, geometry, store  # noqa: E402
 
 MESHES = ((6, 4), (8, 5))  # elements along a link, and their degree
-PLATE_E = 69e6  # [Pa] where the platform is a plate: as soft as the links
+PLATE_E = 69e6  # [Pa], modulus of a platform that is a plate
 
 
 def matrices(length, degree):
-    """K and M of one element, the places of their unknowns, and the weights of one section's."""
+    """Returns K and M of one element, the positions of its unknowns, and the weights of the unknowns of one section."""
     mesh = getfem.Mesh("cartesian", [0, length], [-DEFAULT["thickness"] / 2, DEFAULT["thickness"] / 2])
     field, scalar = getfem.MeshFem(mesh, 2), getfem.MeshFem(mesh, 1)
     field.set_fem(getfem.Fem(f"FEM_QK(2,{degree})"))
@@ -42,10 +42,10 @@ def matrices(length, degree):
 
 
 def link(elements, degree):
-    """K and M of a link along x, whose first six unknowns are ux, uy, rotation of its two ends.
+    """Returns K and M of a link along x. The first six unknowns are ux, uy, rotation of its two ends.
 
-    The unknowns of each section are its mean displacement, mean rotation, and how it warps: those of nodes lose seven digits, as
-    thin rectangles are so much stiffer through the thickness than in bending."""
+    The unknowns of each section are mean displacement, mean rotation, and warping. Displacements of nodes would lose seven digits,
+    because thin rectangles are much stiffer through the thickness than in bending."""
     length = DEFAULT["length"] / elements
     K, M, (x, z), weights = matrices(length, degree)
     columns = [numpy.where(abs(x - length * k / degree) < 1e-9)[0] for k in range(degree + 1)]
@@ -57,7 +57,7 @@ def link(elements, degree):
     basis = numpy.kron(numpy.eye(degree + 1), section)
     K, M = (basis.T @ A[order][:, order] @ basis for A in (K, M))
     n = section.shape[1]
-    motions = numpy.zeros((K.shape[0], 3))  # of a rigid body, under which nothing resists: exactly
+    motions = numpy.zeros((K.shape[0], 3))  # rigid motions, for which the forces are exactly zero
     for k in range(degree + 1):
         motions[k * n:k * n + 3] = [[1, 0, 0], [0, 1, length * k / degree], [0, 0, 1]]
     strain = numpy.eye(len(K)) - motions @ numpy.linalg.pinv(motions)
@@ -73,7 +73,7 @@ def link(elements, degree):
 
 
 class Manipulator:
-    """K and M over the free unknowns; the platform's x, y and rotation are the first three."""
+    """Returns K and M of the free unknowns. The first three are x, y and rotation of the platform."""
 
     def __init__(self, variant, pose, one, plate_degree=0):
         active, elbow, top = variant.split("-")
@@ -102,7 +102,7 @@ class Manipulator:
         self.parts.append((sp.csc_matrix((3, 3)), sp.diags([mass, mass, mass * DEFAULT["side"]**2 / 12]), [{n: 1} for n in range(3)]))
 
     def plate(self, corners, P, degree):
-        """The three triangles around P in plane stress, softer than the links; their unknowns at the corners."""
+        """Adds three triangles around P in plane stress, softer than the links. Returns their unknowns at the corners."""
         mesh = getfem.Mesh("empty", 2)
         for k in range(3):
             mesh.add_convex(getfem.GeoTrans("GT_PK(2,1)"), numpy.array([corners[k], corners[(k + 1) % 3], P]).T)
@@ -117,7 +117,7 @@ class Manipulator:
         nodes = field.basic_dof_nodes()
         unknowns = self.new(nodes.shape[1])
         at = [int(numpy.where(abs(nodes - numpy.array([p]).T).max(0) < 1e-9)[0][0]) for p in (*corners, P)]
-        self.unused = [2, *unknowns[at[3]:at[3] + 2]]  # P is the first of all, and has no rotation
+        self.unused = [2, *unknowns[at[3]:at[3] + 2]]  # P has the first two unknowns, and no rotation
         unknowns[at[3]:at[3] + 2] = [0, 1]
         self.parts.append((sp.csc_matrix(K.full()), sp.csc_matrix(M), [{n: 1} for n in unknowns]))
         return [unknowns[a + axis] for a in at[:3] for axis in (0, 1)]
@@ -127,7 +127,7 @@ class Manipulator:
         return list(range(self.size - count, self.size))
 
     def link(self, one, p, q, motions):
-        """motions: of ux, uy, rotation of both joints, each {unknown: factor}."""
+        """Adds a link. motions: ux, uy, rotation of both joints, each as {unknown: factor}."""
         c, s = (q[0] - p[0]) / math.dist(p, q), (q[1] - p[1]) / math.dist(p, q)
         own = []
         for x, y, turn in (motions[:3], motions[3:]):
@@ -148,7 +148,7 @@ class Manipulator:
         return list(f[rigid:rigid + 8]), rigid
 
     def displacement(self):
-        """ux, uy of P [m] under 10 N along x."""
+        """Returns ux, uy of P [m] under 10 N along x."""
         force = numpy.zeros(self.K.shape[0])
         force[0] = 10
         return list(sp.linalg.spsolve(self.K, force)[:2])
@@ -165,16 +165,16 @@ def add(*scaled):
 def main():
     folder = sys.argv[1]
     links = [link(*mesh) for mesh in MESHES]
-    mesh = ("Elements FEM_QK: {} of degree {} per link. With {} of degree {}, the values change by no more than the uncertainty. "
+    mesh = ("Elements FEM_QK: {} elements of degree {} per link. With {} elements of degree {}, the values change by no more than the uncertainty. "
             "The values are in the order of the poses {}.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
     for variant, degree in [(v, 0) for v in VARIANTS] + [("locked-welded-hinged", 1), ("locked-welded-hinged", 2)]:
         coarse, fine = ([Manipulator(variant, pose, one, degree) for pose in POSES] for one in links)
-        words = "3-RRR, actuators {}, elbows {}, platform joints {}, {}three poses: by GetFEM, ".format(
+        words = "3-RRR, actuators {}, elbows {}, platform joints {}, {}three poses: ".format(
             *variant.split("-"), ("", "platform of 69 MPa in three linear triangles, ", "platform of 69 MPa in three quadratic triangles, ")[degree])
         variant += ("", "-linear-plate", "-quadratic-plate")[degree]
-        found = {"frequencies": (words + "modes 1 to 8 of each", "Hz", [[f for m in ms for f in m.frequencies()[0]] for ms in (coarse, fine)])}
+        found = {"frequencies": (words + "modes 1 to 8 at each pose, by GetFEM", "Hz", [[f for m in ms for f in m.frequencies()[0]] for ms in (coarse, fine)])}
         if not variant.startswith("free"):
-            found["displacement"] = (words + "displacement x, y of P under 10 N along x", "m",
+            found["displacement"] = (words + "displacement x, y of P under 10 N along x, by GetFEM", "m",
                                      [[u for m in ms for u in m.displacement()] for ms in (coarse, fine)])
         for kind, (title, unit, (a, b)) in found.items():
             step = len(b) // len(POSES)

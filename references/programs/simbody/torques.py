@@ -3,7 +3,7 @@
 
     torques.py SIMBODY_ADAPTER OUT      writes simbody-circle-torques-SPEED into OUT/references.json
 
-Bodies, joints and path are made here from the paper's dimensions, in the form that tests/benchmarks/simbody_adapter.cpp reads.
+This program derives bodies, joints and path from the dimensions of the paper, in the format that tests/benchmarks/simbody_adapter.cpp reads.
 """
 import json
 import math

@@ -1,12 +1,12 @@
 // Library that is loaded before the C library (LD_PRELOAD). It makes one call fail after main() has
-// begun. TRAMMEL_FAULT is KIND:NUMBER.
+// begun. The environment variable TRAMMEL_FAULT is KIND:NUMBER.
 //   memory:N   the N-th malloc fails.
 //   disk:N     files accept only N bytes, as on a full disk.
 //   read:S     signal S arrives when a case is read first.
 //   compute:S  signal S arrives when the first run starts.
 //   result:S   signal S arrives before results.json is renamed to its name.
 //   draw:S     signal S arrives when gnuplot is started.
-//   clock:0    each reading of the calendar clock is an hour earlier than the one before.
+//   clock:0    each value of the calendar clock is an hour earlier than the previous value.
 //   count:0    prints the numbers of calls and bytes to standard error.
 #include <dlfcn.h>
 #include <sys/stat.h>

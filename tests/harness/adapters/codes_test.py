@@ -17,8 +17,8 @@ CALCULIX = {
     "portal-frame": {"displacement_x_m:B": 1e-8, "rotation_rad:C": 1e-8, "reaction_moment_N_m:A": 1e-8},
     "timoshenko-cantilever-tip-force": {"displacement_y_m:B": 1e-9},
     "exact-statics:welded-hinged-start": {"rotation_rad:P": 1e-8, "reaction_x_N:A3": 1e-7},  # P has no rotation without U1
-    "frame-every-part": {"displacement_x_m:C": 1e-6, "axial_force_N:AC.start": 1e-6},  # springs at nodes with dependent nodes
-    "scene-soft-joints": {"displacement_x_m:P": 1e-4},  # springs on rotations, which are wrong with U1
+    "frame-every-part": {"displacement_x_m:C": 1e-6, "axial_force_N:AC.start": 1e-6},  # springs at nodes that depend on other nodes
+    "scene-soft-joints": {"displacement_x_m:P": 1e-4},  # springs on rotations, for which elements U1 are wrong
     "scene-thick-links": {"displacement_x_m:P": 1e-9},  # a plate may contract across its plane
     "manipulator-modes": {"frequency_Hz": 4e-4},  # triangles have inertia about their centroid; four elements per link in trammel
     "scene-thick-link-modes": {"frequency_Hz": 3e-3},  # shear-flexible strips with their mass in a core; four elements per link in trammel

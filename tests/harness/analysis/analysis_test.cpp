@@ -197,8 +197,8 @@ BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
 }
 
 /// Tests the path of equilibria of a shallow arch in each rounding mode. With upward rounding, a
-/// step once ended on another branch of equilibria with one unstable direction. This was wrongly
-/// reported as a change of stability.
+/// load step once ended on another branch of equilibria with one unstable direction. The program
+/// wrongly reported this step as a change of stability.
 BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {

@@ -15,7 +15,7 @@ using namespace trammel::harness;
 namespace {
 
 /// Returns the case reduced to the first point of its path, or to the first two points of a motion.
-/// An effect that is evaluated anywhere on the path is also evaluated at these points.
+/// An effect that is evaluated at any point of the path is also evaluated at these points.
 Document at_one_point(Document document) {
   const std::string file = document.origin("").file;
   const JsonPointer circle("/model/trajectory/circle");
@@ -48,7 +48,8 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
     for (const std::string& variant : given.variants()) {
       const Document document = at_one_point(patched(given, variant));
       if (!supports_effects(document)) continue;
-      // Long motions without inactive effects are skipped: they take minutes and test nothing.
+      // Long motions with all effects active are skipped: they take minutes and have no inactive
+      // effect.
       const std::string kind = analysis_kind(document);
       const bool moves = kind == "transient" || kind == "harmonic" || kind == "large-motion";
       if (moves && !document.value().contains("effects")) continue;

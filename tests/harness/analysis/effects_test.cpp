@@ -67,8 +67,8 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
   BOOST_TEST(!result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
-/// Tests the change of the tip displacement of a Timoshenko cantilever that the effect study
-/// measures without shear flexibility. The expected change follows from beam theory.
+/// Tests the change of the tip displacement that the effect study reports for a Timoshenko
+/// cantilever if shear flexibility is omitted. The expected change follows from beam theory.
 BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
@@ -112,8 +112,8 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia,
   BOOST_TEST(!numbers[static_cast<std::size_t>(Effect::platform_flexibility)].value);
 }
 
-/// For each scene, the selection must contain exactly the listed effects of those that increase the
-/// computing time. It may also contain effects that do not increase the computing time.
+/// Among the effects that increase the computing time, the selection must contain exactly those
+/// listed for the scene. It may contain any effect that does not increase the computing time.
 BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
@@ -162,9 +162,8 @@ BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   }
 }
 
-/// The effect of large displacement on compressed columns was once estimated from the displacements
-/// of linear theory. The factor 1 / (1 - P / Pcr) for an axial load P near the buckling load Pcr
-/// was missing.
+/// The importance of large displacement for compressed columns was once estimated from linear
+/// theory, without the factor 1 / (1 - P / Pcr) for an axial load P near the buckling load Pcr.
 BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
@@ -180,7 +179,8 @@ BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
 }
 
 /// The platform of a manipulator moves slowly on a circle under a load of 10 N. The error of linear
-/// theory is between 3 % and 15 %, so that the automatic selection must contain large displacement.
+/// theory is between 3 % and 15 %, so that the selection of effects must contain large
+/// displacement.
 BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   const Case circle = load_named_case("scene-slow-circle");
   const EffectStudy study = study_effects(patched(circle, "ten-newton"), {0.01, 0});
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
 }
 
 /// A sudden start of a manipulator also excites vibrations of its stiff platform. The platform has
-/// only 3e-6 of the strain energy. If it is modeled as rigid, the largest force is wrong by 28 %.
+/// only 3e-6 of the strain energy. If the platform is rigid, the largest force is wrong by 28 %.
 BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   Json json = patched(load_named_case("scene-slow-circle"), "base").value();
   json.erase("extends");
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
 
 /// Omitting inertia changes the results by at most about r^2 + 2 zeta r. The ratio of path
 /// frequency to first natural frequency is r, and zeta is the damping ratio. With this bound, the
-/// selection of effects computes no motion.
+/// selection of effects requires no computed motion.
 BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
   Document slower = patched(load_named_case("scene-slow-circle"), "base");
   slower.apply_patch("test", "",

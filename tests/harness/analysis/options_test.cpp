@@ -14,7 +14,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Pendulum. In some tests, it requires more time steps than the option `steps` permits.
+/// Pendulum motion. Some tests give it more time steps than the option `steps` permits.
 const char* const pendulum = R"({"id": "pendulum", "title": "t",
   "model": {"nodes": {"O": [0, 0], "B": [-1, 0]}, "rigid_bodies": {"rod": {"reference": "O", "nodes": ["B"]}},
             "point_masses": {"bob": {"node": "B", "mass_kg": 1}}, "supports": {"O": ["x", "y"]},

@@ -22,7 +22,8 @@ struct Memory {
   double estimated = 0, most = 0;  ///< [B]
 };
 
-/// Runs an analysis in a separate process, so that no memory of other runs is counted.
+/// Measures the memory of an analysis in a separate process, which excludes memory of other
+/// analyses.
 Memory memory_of(const std::function<Json()>& make) {
   Memory memory;
   const auto work = [&] {

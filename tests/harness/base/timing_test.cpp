@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   std::vector<std::size_t> calls;
   std::vector<std::function<void()>> works;
   for (std::size_t i = 0; i < 3; ++i) works.emplace_back([&calls, i] { calls.push_back(i); });
-  std::vector<std::size_t> after;  // number of calls after each repeat
+  std::vector<std::size_t> after;  // total number of calls after each repeat
   TimingOptions options;
   options.shortest_s = 0;
   const auto timings = time_interleaved(works, options, [&] { after.push_back(calls.size()); });
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
 BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
-  options.shortest_s = 1;  // an empty task never reaches it, so the number of runs is the maximum
+  options.shortest_s = 1;  // an empty task reaches the maximum number of runs first
   const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
   BOOST_TEST(timings[0].runs_each == 1000);
   BOOST_TEST(calls == 7 * 1000 + 2);

@@ -23,8 +23,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// @param limit  largest permitted relative difference between the results of a case and of the
-/// exported case; 0 requires bit-identical numbers
+/// @param limit  largest permitted relative difference between the results of the original case and
+/// of the exported case; 0 requires bit-identical numbers
 void check_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
@@ -96,8 +96,8 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
 }
 
 // The export writes the sections of tapered members as E and A; their product differs from EA in
-// the last bit. It also adds the forces on edges to the nodes before those on members, which
-// changes round-off.
+// the last bit. The export also adds the forces on edges to the nodes before the forces on members,
+// which changes round-off.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
@@ -128,8 +128,8 @@ BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   }
 }
 
-// The variant "whole" has no checks, but a check of the base variant compares with it. The export
-// of "whole" once had no quantities, so that the base variant could not be judged.
+// The variant "whole" has no checks, but a check of the base variant compares with the variant
+// "whole". The export of "whole" once had no quantities, so that the check could not be judged.
 BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
 BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   Json robot = manipulator();
   robot["model"]["manipulator"]["joints"]["platform"] = "eq25-mean";
-  BOOST_TEST(contains(refusal_of(robot), "cannot express its constraint 'eq25'"));
+  BOOST_TEST(contains(refusal_of(robot), "cannot express the constraint 'eq25'"));
   Json moving = manipulator();
   moving["model"].erase("pose");
   moving["model"]["trajectory"]["circle"] = {

@@ -32,7 +32,7 @@ for _, grid in modes:
     assert grid.GetNumberOfCells() > 20 and moved.GetNumberOfTuples() == grid.GetNumberOfPoints() > 20
     assert moved.GetName() == "displacement" and moved.GetMaxNorm() > 0
     low, high, *_ = grid.GetBounds()
-    assert 0.3 < high - low < 0.7, grid.GetBounds()  # the side of the base is 0.5 m
+    assert 0.3 < high - low < 0.7, grid.GetBounds()  # extent of the drawing, near the base side of 0.5 m
 
 motion = list(grids("elastodynamics-circle", "motion"))
 times = [time for time, _ in motion]
@@ -40,4 +40,4 @@ assert len(motion) > 20 and times == sorted(set(times)) and times[0] == 0 and 6.
 largest = [grid.GetPointData().GetVectors().GetMaxNorm() for _, grid in motion]
 assert 1e-3 < max(largest) < 0.05, largest
 centers = {grid.GetPoint(9) for _, grid in motion}
-assert len(centers) == len(motion)  # P moves on a circle
+assert len(centers) == len(motion)  # P is at a different position at each time

@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
   BOOST_TEST(
       run(folder, grade_words(adapter, "cannot.json gives-nothing.json well-behaved.json")) == 0);
   BOOST_TEST(run(folder, "grade ./no-such-adapter well-behaved.json") == 2);
-  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") == 2);  // not executable
+  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") == 2);  // no executable
   BOOST_TEST(run(folder, grade_words(adapter, "no-such-case")) == 2);
   BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
 }
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   BOOST_TEST(verdict(" 2 2") == "0 pass");
   BOOST_TEST(verdict(" 2 4") == "1 fail");
   BOOST_TEST(verdict(" 2 null") == "0 not-given");
-  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // no solution
+  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // the solver fails
 }
 
 BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
@@ -231,7 +231,7 @@ std::map<std::string, std::set<std::string>> documented_faults() {
   return faults;
 }
 
-/// Grades the faulty solver on the named cases. @returns the cases whose grade is "off"
+/// Grades the faulty solver on the named cases. @returns the cases with the grade "off"
 std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
                                 const std::set<std::string>& cases, int status) {
   std::string names;

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(variant_is_a_merge_patch) {
   BOOST_TEST((base.at(bar) == Json{{"thickness_m", 0.1}, {"width_m", 0.05}}));
   BOOST_TEST((deep.at(bar) == Json{{"thickness_m", 0.2}, {"width_m", 0.05}}));
   BOOST_TEST(base["model"].contains("loads"));
-  BOOST_TEST(!deep["model"].contains("loads"));  // null removes the key
+  BOOST_TEST(!deep["model"].contains("loads"));  // null in a patch removes the key
   BOOST_TEST(deep["title"] == base["title"]);
   BOOST_TEST(!deep.contains("variants"));
 }
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(extended_case_may_be_in_another_folder) {
   BOOST_TEST(testing::read(folder, json).document.value().contains("analysis"));
   const Json lost = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilver.json"}};
   BOOST_TEST(contains(input_error_message([&] { (void)testing::read(folder, lost); }),
-                      "/extends: expected a file relative to this one or a case of the catalogue"));
+                      "/extends: expected a catalogue case or a path relative to this file"));
 }
 
 BOOST_AUTO_TEST_CASE(stress_suite_indicator_must_be_a_check_of_the_case) {
@@ -131,8 +131,7 @@ BOOST_AUTO_TEST_CASE(sweep_sets_the_values_at_its_pointers) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Json& model = found[i].document.value()["model"];
     BOOST_TEST(model["elements"] == std::size_t{1} << i);
-    BOOST_TEST(
-        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the other entry is unchanged
+    BOOST_TEST((model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // B.y keeps its value
     BOOST_TEST(found[i].parameter == static_cast<double>(std::size_t{1} << i));
   }
 }

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(two_rooms_cannot_have_cases_with_one_name) {
   BOOST_TEST(input_error_message([&] { (void)Catalogue(folder.path()); }).empty());
   const auto second = folder.write("hard/cantilever.json", "{}");
   BOOST_TEST(input_error_message([&] { (void)Catalogue(folder.path()); }) ==
-             second.string() + ": /id: expected a unique name of the case (got it also in " +
+             second.string() + ": /id: expected a unique case name (the same name is in " +
                  first.string() + ")");
 }
 

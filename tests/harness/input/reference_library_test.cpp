@@ -20,7 +20,7 @@ Json reference() {
           {"place", "here"}};
 }
 
-/// Returns the error message about the reference "x" in a file with the given text.
+/// Returns the error message for the reference "x" in a reference file with the given text.
 std::string fault(const std::string& text) {
   const Folder folder;
   const std::string file = folder.write("references.json", text).string();

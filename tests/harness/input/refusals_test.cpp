@@ -1,4 +1,4 @@
-// Invalid inputs: a change of a valid case, and the pointer and message of the refusal.
+// Invalid inputs: each is a change of a valid case, with the JSON pointer and message of the error.
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
@@ -201,7 +201,7 @@ const Refusal kEffects[] = {
     {"motion", R"({"effects": ["axial-flexibility", "large-displacement"],
         "analysis": {"elastodynamics": {"load_history": {"time_s": [0, 1, 1],
         "factor": [0, 0, 1]}}}})",
-     "it requires a load history without jumps"}};
+     "the load history must not have jumps"}};
 
 const Refusal kModels[] = {
     {"beam", R"({"model": {"members": {"AB": {"section": "bra"}}}})",

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(divergence_on_coarse_meshes_is_ignored) {
 }
 
 BOOST_AUTO_TEST_CASE(slow_convergence_and_round_off_are_no_divergence) {
-  const Convergence slow = analyze_convergence(of_values({4, 3, 2.1, 1.29}));  // order 0.15
+  const Convergence slow = analyze_convergence(of_values({4, 3, 2.1, 1.29}));  // slow: order 0.15
   BOOST_TEST(std::isfinite(*slow.gci[3]));
   BOOST_TEST(slow.richardson.has_value());
   const Convergence noise = analyze_convergence(of_values({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   const Convergence found = analyze_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
   series.theory_order.reset();
-  BOOST_TEST(*analyze_convergence(series).safety_factor[5] == 3);  // no theoretical order
+  BOOST_TEST(*analyze_convergence(series).safety_factor[5] == 3);  // theoretical order unknown
 }
 
 BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {

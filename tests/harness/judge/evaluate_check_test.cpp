@@ -47,7 +47,7 @@ struct Bench {
     return harness::evaluate_check(checks.at(0),
                                    {document, quantities, {}, references, variant, other_solver});
   }
-  /// Returns the worst verdict of all judged values, and stores its message.
+  /// Returns the worst verdict of all values of the check, and stores the message of this verdict.
   std::string verdict() {
     Verdict worst = Verdict::pass;
     for (const CheckResult& one : judge_all()) {
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(reference_less_certain_than_tolerance_is_an_error) {
   bench.reference["uncertainty"] = {{"absolute", 0.5}};
   BOOST_TEST(bench.verdict() == "error");
   BOOST_TEST(contains(bench.message, "the uncertainty of the reference is +-0.5"));
-  bench.reference["uncertainty"] = {{"absolute", 0.015}};  // the tolerance is +-0.01
+  bench.reference["uncertainty"] = {{"absolute", 0.015}};  // exceeds the tolerance, +-0.01
   BOOST_TEST(bench.verdict() == "error");
   bench.reference["uncertainty"] = {{"absolute", 0.009}};
   BOOST_TEST(bench.verdict() == "pass");
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
   BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
-  for (const double value : {10.0, 13.0}) {  // agreement, then a larger difference
+  for (const double value : {10.0, 13.0}) {  // reference value; larger difference than recorded
     bench.set(0, value);
     BOOST_TEST(bench.verdict() == "fail");
     BOOST_TEST(contains(bench.message, "the difference left its recorded range"));
@@ -307,7 +307,7 @@ BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
   BOOST_TEST(all[0].difference.value() == -1);
   bench.check["against_quantity"] = "other_m";
   BOOST_TEST(bench.verdict() == "error");
-  // A check can also name its own variant as the variant with the other quantity.
+  // A check may name its own variant, and compare two quantities of this variant.
   bench.check["against_quantity"] = "other_Hz";
   bench.check["against_variant"] = "base";
   bench.other = bench.quantities;

@@ -1,5 +1,5 @@
-// Convergence studies of series whose error has terms of two orders, has a different order than
-// theory, or has no order.
+// Convergence studies of three kinds of series: the error has terms of two orders, an order other
+// than the theoretical order, or no order.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
   Convergence found = synthetic_study(3, 1);
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
-  found.gci = {NAN, NAN, 0.4};  // absolute uncertainty 6, error 5
+  found.gci = {NAN, NAN, 0.4};  // at the last level: absolute uncertainty 6, error 5
   BOOST_TEST(summarize({found}).levels == 1U);
   BOOST_TEST(summarize({found}).covered == 1U);
   found.gci[2] = 0.3;
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
 
 BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
   Convergence found = synthetic_study(8, 1);
-  found.at_roundoff_floor.assign(8, true);  // no level has a ratio of GCI to error
+  found.at_roundoff_floor.assign(8, true);  // excludes every level from the ratio of GCI to error
   const results::UncertaintyCoverage summary = summarize(std::vector<Convergence>(30, found));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);

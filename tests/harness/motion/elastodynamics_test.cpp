@@ -49,8 +49,8 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
-  // Without elastic inertia, the work of the loads is not computed. It was once reported as 0 J, so
-  // that the energy drift contained the actual work.
+  // Without elastic inertia, the work of the loads is not computed. The program once reported this
+  // work as 0 J, so that the reported energy drift contained the actual work.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
   const AnalysisResult result = result_of(json);

@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(suggested_velocity_is_admissible) {
   BOOST_TEST(result_of(json).outcome.solved());
   given["C"]["y_m_per_s"] = 5;
   BOOST_TEST(contains(result_of(json).outcome.reason,
-                      "nor do they admit the other given velocities together"));
+                      "nor do the constraints admit the other given velocities"));
   given = {{"C", {{"x_m_per_s", 1}}}};
   BOOST_TEST(contains(result_of(json).outcome.reason, ": 0 m/s is admissible"));
 }

@@ -40,7 +40,7 @@ struct FieldList {
   }
 };
 
-/// @param read_alone  keys that are read but never written, and thus are not in the list of fields
+/// @param read_alone  keys that are read but never written, and thus are missing in the field list
 template <class T>
 void check_fields(const std::string& definition, const Names& read_alone = {}) {
   const Json& rule = schema()["definitions"][definition];

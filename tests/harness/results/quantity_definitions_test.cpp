@@ -15,7 +15,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Heads of the names of quantities (parts before the colon), by type of analysis.
+/// Names of quantities without the part after the colon (heads), by type of analysis.
 using Recorded = std::map<std::string, std::set<std::string>>;
 
 /// Returns the heads of the names of quantities, except for quantities that a study defines.

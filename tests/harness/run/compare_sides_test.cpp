@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns a side of a comparison: results with one run that has these quantities.
+/// Returns a result set ("side") of a comparison: results with one run that has these quantities.
 Side side(const std::string& label, const std::map<std::string, std::vector<double>>& quantities) {
   Side made{label, {}, std::nullopt};
   made.results.cases.emplace_back();
@@ -30,7 +30,7 @@ results::SideComparison compared(const Side& a, const Side& b) {
   return harness::compare_sides({a, b}, false);
 }
 
-/// Returns a side of a comparison with modes of two nodes that move along y only.
+/// Returns a result set of a comparison with mode shapes of two nodes that move along y only.
 Side drawn(const std::string& label, const std::vector<double>& frequencies,
            const std::vector<std::pair<double, double>>& shapes) {
   Side made = side(label, {{"frequency_Hz", frequencies}});
@@ -42,7 +42,7 @@ Side drawn(const std::string& label, const std::vector<double>& frequencies,
   return made;
 }
 
-/// Returns a check of mass_kg against 1 kg.
+/// Returns a check that compares mass_kg with 1 kg.
 results::Check mass_check() {
   results::Check check;
   check.name = "c";
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   study.roundoff = {1e-9, 1e-8};
   b.results.runs[0].convergence = {study};
   BOOST_TEST(compared(a, b).changed == 0U);
-  // A relative change above 1e-6 is not round-off, even if the study estimates a larger round-off.
+  // A relative change above 1e-6 is not round-off, even if the study estimates 1e-3 as round-off.
   b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
   BOOST_TEST(compared(a, b).changed == 1U);
   b.results.runs[0].convergence = {study};
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(missing_run_and_other_verdict_are_changes) {
 
 namespace {
 
-/// Returns a side with checks of one value each, whose errors are `error` times a factor.
+/// Returns a result set with checks of one value each, whose errors are `error` times a factor.
 Side with_errors(const std::string& label, double error, const std::vector<double>& factors) {
   Side made = side(label, {{"mass_kg", {1.0}}});
   for (const double factor : factors) {

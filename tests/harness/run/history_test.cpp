@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns the results of a call with one check that has this value and verdict.
+/// Returns the results of a call of the program with one check that has this value and verdict.
 results::Results call(const std::string& commit, double value,
                       results::Verdict verdict = results::Verdict::pass, std::size_t work = 10) {
   results::Results made;

@@ -40,7 +40,7 @@ PartitionName=all Nodes=n[1-2] Default=YES
 
 
 class Cluster:
-    """Two nodes; the daemons run in separate sessions."""
+    """Slurm cluster with two nodes on this machine; its daemons run in separate sessions."""
 
     def __init__(self, folder):
         self.folder, self.processes = folder, {}
@@ -119,7 +119,7 @@ def kept(out, shard="*"):
 
 
 def lose_a_node(cluster, out):
-    """Kills the node of a running shard. @returns the shard's number"""
+    """Kills the node of a running shard. @returns the number of the shard"""
     wait_for("first results", lambda: kept(out) >= 2, 120)
     shard, node = said("squeue", "-h", "-r", "-t", "R", "-o", "%K %N").splitlines()[0].split()
     cluster.kill(node)
@@ -147,7 +147,7 @@ def main():
             requeued = lambda: said("squeue", "-h", "-r", "-t", "PD", "-o", "%K %r").split("\n").count(f"{shard} BeginTime")
             wait_for(f"shard {shard} in the queue again", requeued, 60)
             job = said("squeue", "-h", "-r", "-t", "PD", "-o", "%A %K %r").split("\n")
-            for line in job:  # otherwise Slurm waits two minutes
+            for line in job:  # restarts the job at once; by default Slurm waits two minutes
                 if line.endswith(f" {shard} BeginTime"):
                     said("scontrol", "update", f"JobId={line.split()[0]}", "StartTime=now")
             wait_for("an empty queue", lambda: not said("squeue", "-h", "-o", "%i"), 300)

@@ -21,7 +21,7 @@ std::vector<Eigen::VectorXd> wave(double periods) {
   return q;
 }
 
-/// Returns the manipulator on a line of 10 mm in 0.1 s with a force at P.
+/// Returns a manipulator that moves along a line of 10 mm in 0.1 s, with a force at P.
 Json on_a_line(const Json& analysis) {
   Json json = testing::manipulator();
   json["model"].erase("pose");
@@ -33,7 +33,7 @@ Json on_a_line(const Json& analysis) {
   return json;
 }
 
-/// Returns the value of a quantity at the time of a pose in the drawing.
+/// Returns the value of the quantity `name` at the time of a drawn pose.
 double at(const AnalysisResult& result, const std::string& name, const results::Pose& instant) {
   const std::vector<double>& time = values(result, "time_s");
   const auto found =
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(drawn_instants_resolve_fast_motions) {
   BOOST_TEST(slow.back() == 960);
   const std::vector<std::size_t> fast = drawn_samples(wave(48), 20);
   BOOST_TEST(fast.size() == 48);
-  BOOST_TEST(fast.back() > 60);  // three periods
+  BOOST_TEST(fast.back() > 60);  // the drawn time span is at least three periods
   BOOST_TEST(fast.back() < 250);
   BOOST_TEST(drawn_samples(wave(1), 1000).size() == 6);
   BOOST_TEST(drawn_samples({Eigen::VectorXd::Zero(1)}, 20).empty());

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
 }
 
 // Tests the warning about second-order statics near buckling. The Euler load of the cantilever is
-// pi^2 E I / (4 L^2). At 0.95 of this load, its displacements are about 20 times those of linear
+// pi^2 E I / (4 L^2). At 0.95 of this load, the displacements are about 20 times those of linear
 // theory.
 BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
 }
 
 // Tests the warning that reduced modes do not represent the initial velocity of a cantilever, a
-// uniform translation. The first mode has 61.3 % of its kinetic energy. The remaining velocity has
+// uniform translation. The first mode has 61.3 % of the kinetic energy. The remaining velocity has
 // the relative norm sqrt(0.387) = 0.622 on a fine mesh.
 BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
   Json json = testing::cantilever();

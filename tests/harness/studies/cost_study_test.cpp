@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(settings_are_the_patched_case) {
   BOOST_TEST(study.settings[5].document.value()["model"]["members"]["AB"]["mass_matrix"] ==
              "lumped");
   BOOST_TEST(!study.settings[3].document.value()["model"]["members"]["AB"].contains("mass_matrix"));
-  BOOST_TEST(!study.settings[0].document.value()["analysis"].contains("statics"));  // a null
+  BOOST_TEST(!study.settings[0].document.value()["analysis"].contains("statics"));  // null patch
   BOOST_TEST(study.baseline == 2U);
   BOOST_TEST_REQUIRE(study.reference_solution.has_value());
   BOOST_TEST(study.reference_solution->document.value().at("model").at("elements") == 32);
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   spoiled = json;
   spoiled["scale"] = "largest";
   BOOST_TEST(contains(fault_of(spoiled), "/scale: each of 'outputs' requires its scale"));
-  // A curve of a cost study must compute the first output of the study, but not the second.
+  // A curve of a cost study must compute the first output of the study; other outputs are optional.
   spoiled = json;
   spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
   BOOST_TEST(fault_of(spoiled) == "");

@@ -17,8 +17,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns a study of a cantilever's frequencies with refinement, relative to those of 16 elements.
-/// The second curve requests more modes than its model has.
+/// Returns a cost study of a cantilever's frequencies with mesh refinement. Errors are relative to
+/// the frequencies of 16 elements. The second curve requests more modes than its model has.
 Json study_json() {
   return Json::parse(R"({
     "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
@@ -50,7 +50,7 @@ results::CostStudy measured(const Json& json) {
 BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};
   const results::ErrorNorms entry = error_norms(found, reference_solution, {});
-  BOOST_TEST(*entry.max == 0.1);  // expected value 0: error relative to the largest value 10
+  BOOST_TEST(*entry.max == 0.1);  // error 1 at expected value 0, relative to the largest, 10
   BOOST_TEST(*entry.mean == 0.2 / 3);
   BOOST_TEST(*entry.rms == std::sqrt(0.02 / 3));
   const results::ErrorNorms largest =
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_separately_and_together) {
   const std::vector<CostPoint> points = cost_points(study);
   BOOST_TEST(points.size() == 4U);
   const auto all = cost_points(study, std::nullopt), size = cost_points(study, 1);
-  BOOST_TEST_REQUIRE(all.size() == 3U);  // without the setting that lacks the second output
+  BOOST_TEST_REQUIRE(all.size() == 3U);  // excludes the setting without a second output
   for (std::size_t i = 0; i < all.size(); ++i)
     BOOST_TEST(all[i].error == std::max(points[i].error, size[i].error));
   results::CostStudy diverged = study;
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(computation_beyond_its_time_limit_is_stopped) {
 
 BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
   Json json = study_json();
-  // Each frequency is proportional to the square root of E.
+  // Frequencies are proportional to sqrt(E), so that an excessive E makes all errors large.
   json["curves"]["more"] = {{"title", "stiff beyond reason"},
                             {"patch", {{"model", {{"materials", {{"steel", {{"E_Pa", 2e15}}}}}}}}}};
   BOOST_TEST((measured(json).settings[4].status == "diverged"));
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
 
 BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   Json json = study_json();
-  // The setting differs from the reference solution in its title only, so frequencies are equal.
+  // The setting differs from the reference solution in its title only. Their frequencies are equal.
   json["curves"]["more"] = {{"title", "another name"},
                             {"patch", {{"title", "another"}, {"model", {{"elements", 16}}}}}};
   const results::CostStudy study = measured(json);

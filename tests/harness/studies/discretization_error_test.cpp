@@ -42,7 +42,7 @@ Estimated estimated(const Json& json) {
   return found;
 }
 
-/// Returns a manipulator as a new user writes it, without a mesh.
+/// Returns a manipulator without a specified mesh, as a new user writes it.
 Json own_manipulator() {
   return Json::parse(R"({
     "id": "own-manipulator", "title": "Own 3-RRR",
@@ -104,7 +104,8 @@ BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
 }
 
-// The mesh of four elements is compared with one of two elements: 1.3 per half wave of mode 2.
+// The error estimate compares four elements with two elements: 1.3 elements per half wave of mode
+// 2.
 BOOST_AUTO_TEST_CASE(mode_with_few_elements_per_half_wave_has_order_two) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 2}}}};
@@ -137,7 +138,7 @@ BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
 BOOST_AUTO_TEST_CASE(round_off_of_a_straight_member_gives_no_warning) {
   Json json = cantilever();
   Json& model = json["model"];
-  const double c = std::cos(0.7), s = std::sin(0.7), force_N = 8e-4;  // EI/L^2 is 8.3e-4 N
+  const double c = std::cos(0.7), s = std::sin(0.7), force_N = 8e-4;  // near EI/L^2 = 8.3e-4 N
   json["analysis"] = {{"large-statics", {{"load_factors", {10, 19, 20, 25}}}}};
   model["sections"]["bar"]["rectangle"]["thickness_m"] = 1e-4;
   model["members"]["AB"]["axial"] = "inextensible";
@@ -167,7 +168,7 @@ BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   const Estimated meters = estimated(json);
-  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes, the same unit of time
+  constexpr double kLength = 1e3, kMass = 1e-3;  // units mm and t instead of m and kg
   Json& model = json["model"];
   model["materials"]["steel"]["E_Pa"] = 2e11 * kMass / kLength;
   model["materials"]["steel"]["rho_kg_m3"] = 7800 * kMass / (kLength * kLength * kLength);
@@ -185,7 +186,7 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
   exact["analysis"]["transient"]["method"] = "modal-superposition";
   exact["model"]["elements"] = 16;
   const std::vector<double> truth = estimated(exact).values("displacement_y_m:B");
-  for (const double step_s : {1e-3, 5e-4, 1e-4, -1e-3}) {  // negative: as a limit for any tolerance
+  for (const double step_s : {1e-3, 5e-4, 1e-4, -1e-3}) {  // negative: maximum step
     Json json = vibrating_cantilever();
     json["analysis"]["transient"]["step_s"] = std::abs(step_s);
     if (step_s < 0) json["analysis"]["transient"]["error_control"]["relative"] = 10;
@@ -231,7 +232,7 @@ BOOST_AUTO_TEST_CASE(search_reaches_its_accuracy) {
     for (std::size_t mode = 0; mode < converged.size(); ++mode)
       largest = std::max(largest, std::abs(found[mode] / converged[mode] - 1));
     BOOST_TEST(largest <= accuracy);
-    // Three levels confirm the order, so that the safety factor is 1.25.
+    // Three levels confirm the order of convergence, so that the safety factor is 1.25.
     if (accuracy < 1e-2) BOOST_TEST(*search.errors.search.back().error <= 1.5 * largest);
   }
 }
@@ -274,7 +275,7 @@ BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
   json["model"]["members"]["AB"].erase("end_section");
   json["model"]["nodes"]["B"] = {0, 2};
   json["model"]["members"]["AB"]["arc_center_m"] = {0, 1};
-  BOOST_TEST(element_count_of(document_of(json), "AB") == 24);  // half a circle
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 24);  // the member is a half circle
   json["model"]["elements"] = 3;
   BOOST_TEST(element_count_of(document_of(json), "AB") == 3);
 }

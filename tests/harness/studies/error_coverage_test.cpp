@@ -26,9 +26,9 @@ using namespace trammel::harness;
 
 namespace {
 
-constexpr double kLongest_s = 3;  // processor time of the finer levels of a mesh or step
+constexpr double kLongest_s = 3;  // limit of processor time for the finer levels
 constexpr int kFinerLevels = 3, kMostVariants = 4, kMostSamples = 50000;
-constexpr double kKnown = 0.3;  // largest uncertainty of a true error, relative to this error
+constexpr double kKnown = 0.3;  // limit of the relative uncertainty of a true error
 
 /// Doubles the number of samples, because the largest value of a motion can be between two samples.
 void add_samples(Document& document) {
@@ -56,7 +56,7 @@ std::vector<AnalysisResult> finer_levels(Document document, AnalysisResult own,
     try {
       document.validate("case");
       levels.push_back(analyze(document, references, {true}));
-    } catch (const InputError&) {  // for example, a limit of the number of elements
+    } catch (const InputError&) {  // such as too many elements
       break;
     }
     if (!levels.back().outcome.solved()) {
@@ -70,13 +70,13 @@ std::vector<AnalysisResult> finer_levels(Document document, AnalysisResult own,
 
 double work_of(const Document& document, const References& references) {
   const solver::Model model = model_at_path_start(read_case_model(document));
-  const bool is_linear = inner_analysis_kind(document) != "large-motion";  // else no system K
+  const bool is_linear = inner_analysis_kind(document) != "large-motion";  // else K is undefined
   const double unknowns = is_linear ? 1.0 * solver::assemble(model).K.rows() : unknown_count(model);
   return estimated_work(analyze(document, references, {}).counters, unknowns);
 }
 
-/// Returns the counted work of each coarser companion relative to that of the case. The result is
-/// empty if a companion is finer, because the mesh or step cannot be doubled.
+/// Returns the counted work of each coarser companion (mesh or step of twice the size) relative to
+/// the work of the case. The result is empty if the companion is finer instead.
 std::vector<double> cost_of(const Document& document, const AnalysisResult& own,
                             const References& references) {
   std::vector<double> costs;
@@ -90,8 +90,8 @@ std::vector<double> cost_of(const Document& document, const AnalysisResult& own,
   return costs;
 }
 
-/// Returns the values of a quantity on another level at the samples of the case; NaN if there is
-/// none. Modes have equal shapes or equal numbers, whichever frequency is nearer.
+/// Returns the values of a quantity on another level at the samples of the case; NaN if the level
+/// has no such sample. Frequencies are matched by mode shape or mode number, whichever is nearer.
 std::vector<double> values_on(const AnalysisResult& level, const AnalysisResult& own,
                               const std::string& name) {
   const std::vector<double>& given = own.quantities.at(name).values;
@@ -112,9 +112,9 @@ std::vector<double> values_on(const AnalysisResult& level, const AnalysisResult&
   return found;
 }
 
-/// Returns a row for each value, and one for the largest difference of a curve. A row has the
-/// stated error, the difference from the finest level, and the difference between the two finest
-/// levels. All are relative to the value or to its scale.
+/// Returns a row for each value, or one row for the largest difference of a curve. A row contains
+/// the estimated error, the difference from the finest level, and the difference between the two
+/// finest levels. All are relative to the value or to the scale of the quantity.
 Json rows_of(const std::string& kind, const AnalysisResult& own,
              const results::ErrorEstimates& errors, const std::vector<AnalysisResult>& levels) {
   Json rows = Json::array();
@@ -146,7 +146,7 @@ void add_level(const std::string& level, const Document& document, Json& levels)
   if (!own.outcome.solved() || !can_be_refined(document)) return;
   const results::ErrorEstimates errors = estimate_errors(document, own, references);
   const std::vector<AnalysisResult> finer = finer_levels(document, own, references);
-  if (finer.size() < 3) return;  // the true errors are unknown
+  if (finer.size() < 3) return;  // too few levels to determine the true errors
   levels.push_back({{"level", level},
                     {"kind", inner_analysis_kind(document)},
                     {"cost", cost_of(document, own, references)},
@@ -161,7 +161,7 @@ std::string levels_of(const Case& given) {
     try {
       document.validate("case");
       add_level(given.id() + ", " + name, document, levels);
-    } catch (const InputError&) {  // a case that is to be refused
+    } catch (const InputError&) {  // invalid on purpose
     }
   };
   for (const std::string& variant : given.variants() | std::views::take(kMostVariants))
@@ -180,18 +180,18 @@ std::string levels_of(const Case& given) {
   return levels.dump();
 }
 
-/// Estimates of one type of analysis.
+/// Statistics of the error estimates of one type of analysis.
 struct Tally {
   int values = 0, estimated = 0, covered = 0, missed = 0, short_by_ten = 0;
   std::vector<double> ratios;
-  std::map<std::size_t, std::vector<double>> costs;  // by number of companions: one or two
+  std::map<std::size_t, std::vector<double>> costs;  // key: number of companions, one or two
 
   [[nodiscard]] double coverage() const {
     return covered + missed > 0 ? static_cast<double>(covered) / (covered + missed) : 1;
   }
 };
 
-/// True error divided by the stated one, and the case, quantity, stated and true error.
+/// Ratio of true to estimated error, and texts: case, quantity, estimated error, true error.
 using Miss = std::pair<double, std::vector<std::string>>;
 
 /// Returns a row of an HTML table. @param tag  "th" or "td"
@@ -201,8 +201,8 @@ std::string row_of(const std::string& tag, const std::vector<std::string>& cells
   return row + "</tr>\n";
 }
 
-/// Adds a row of `rows_of` to the tally. @param points  true and stated errors in tenths of
-/// decades, rounded to fifths of decades
+/// Adds a row of `rows_of` to the tally.
+/// @param points  true and estimated errors: log10 in tenths, rounded to fifths of a decade
 void add_row(const Json& row, const std::string& level, Tally& tally, std::vector<Miss>& misses,
              std::set<std::array<int, 2>>& points) {
   constexpr double kRoundoff = 1e-11;
@@ -211,7 +211,7 @@ void add_row(const Json& row, const std::string& level, Tally& tally, std::vecto
   ++tally.estimated;
   const double stated = row[1], difference = row[2], unknown = row[3];
   const bool is_known = unknown <= kKnown * difference;
-  if (difference + unknown > stated && !is_known) return;  // cannot be decided
+  if (difference + unknown > stated && !is_known) return;  // true error too uncertain
   if (difference <= stated) {
     ++tally.covered;
   } else {
@@ -250,7 +250,7 @@ BOOST_AUTO_TEST_CASE(stated_errors_cover_true_errors) {
     }
   };
   BOOST_TEST(run_in_processes(tasks, {2}, ended) == 0);
-  // To update the report, these files replace those of the same names in reports/templates.
+  // To update the report, replace the files of the same names in reports/templates by these files.
   std::ofstream scatter("error_coverage.csv");
   for (const auto& [truth, stated] : points) scatter << truth << ' ' << stated << '\n';
   std::ofstream out("error_coverage.mustache");

@@ -35,8 +35,8 @@ BOOST_AUTO_TEST_CASE(dominated_setting_is_not_on_the_pareto_front) {
 }
 
 BOOST_AUTO_TEST_CASE(differences_within_timing_scatter_keep_the_front) {
-  // Settings 0 and 1 have the same error. Setting 1 is 3 % faster or slower, which is within the
-  // scatter of measured times.
+  // Settings 0 and 1 have the same error. Setting 1 is 3 % faster or slower than setting 0, which
+  // is within the scatter of measured times.
   for (const double noise : {0.97, 1.03}) {
     const std::vector<CostPoint> points = {{0, 1e-3, 1}, {1, 1.0000001e-3, noise}, {2, 1e-5, 3}};
     const std::vector<std::size_t> expected = {0, 2};

@@ -61,7 +61,7 @@ class Bar:
     """Link or member with random dimensions. Further random properties are relative to its bending stiffness E I."""
 
     def __init__(self, draw, length, thickness, width, is_link=False):
-        """Draws the thickness relative to the length, and the width relative to the thickness, or for a link to the length."""
+        """Draws the thickness relative to the length. The width of a member is relative to its thickness, that of a link to its length."""
         self.draw, self.length, self.thickness = draw, length, length * draw.logarithmic(*thickness)
         self.width = (length if is_link else self.thickness) * draw.logarithmic(*width)
         self.bending = E * self.width * math.pow(self.thickness, 3) / 12
@@ -120,7 +120,7 @@ def frame(bar, elements, nodes, members, supports):
 
 
 def add_lump_and_loads(model, modes, node, mass, bar, draw):
-    """Adds a lump at a node and, in statics, a force there and gravity; `mass` is that of the frame [kg]."""
+    """Adds a lumped mass at a node and, in statics, a force at this node and gravity. `mass` is the mass of the frame [kg]."""
     if modes or draw.chance(0.5):
         model["point_masses"] = {"lump": {"node": node, "mass_kg": mass * draw.logarithmic(1e-4, 1e4)}}
     load = bar.load()
@@ -132,7 +132,7 @@ def add_lump_and_loads(model, modes, node, mass, bar, draw):
 
 
 def beam(modes, draw):
-    """Returns a cantilever or a beam that is clamped at both ends, with a lump."""
+    """Returns a cantilever or a beam that is clamped at both ends, with a lumped mass."""
     length = draw.logarithmic(0.2, 5)
     bar = Bar(draw, length, (0.002, 0.3), (0.5, 5))
     clamped, root = draw.chance(0.4), bar.joint("welded")
@@ -182,7 +182,7 @@ def near_singular(_, draw):
 
     force = bar.load()
     model["loads"] = at_platform(draw.direction(force * draw.logarithmic(1e-3, 1)))
-    if draw.chance(0.5):  # outwards along the first limb and back
+    if draw.chance(0.5):  # path outward along the first limb and back
         radius = (2 * length * (1 - near) + arm - center) / 2
         middle = pose(center + radius, 0)
         circle = {"center_m": [middle["x_m"], middle["y_m"]], "radius_m": radius, "points": POINTS_NEAR,
@@ -221,7 +221,7 @@ def moving_manipulator(draw, scene):
 
 
 def spinning_link(draw, scene):
-    """Returns a link that spins about its root, with a lump at its end."""
+    """Returns a link that spins about its root, with a lumped mass at its end."""
     length = draw.logarithmic(0.1, 1)
     bar = Bar(draw, length, (0.003, 0.2), (0.5, 10))
     hub, count = length * draw.uniform(0, 1), 1 if draw.chance(0.5) else 3

@@ -21,8 +21,8 @@ namespace {
 /// length^2.
 const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
 
-/// Returns a beam of depth 0.1 m within 1 mm, E within 1 % and a nominal length of 2 m within 0.5
-/// m. The printed frequency has the relative error `off`.
+/// Returns a beam with three uncertain inputs: depth 0.1 m +-1 mm, E +-1 %, nominal length 2 m
+/// +-0.5 m. The printed frequency has the relative error `off`.
 Json beam(const Folder& folder, double off) {
   folder.write_reference("printed", "Hz", kExact * (1 - off), {{"absolute", 0.05}}, "code");
   folder.write_reference("other", "Hz", kExact * (1 - off) + 3, {{"absolute", 0.05}}, "code");
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {
   const Folder folder;
   const Run found = run(testing::read(folder, beam(folder, 0)));
   const results::Comparison& entry = found.uncertainty->comparisons[0];
-  const double length = 2 * 0.25 * *entry.simulation / std::sqrt(3.0);  // f ~ 1 / L^2
+  const double length = 2 * 0.25 * *entry.simulation / std::sqrt(3.0);  // frequency ~ 1/L^2
   BOOST_TEST(std::abs(*entry.contributions[2].second) == length,
              boost::test_tools::tolerance(0.01));
   BOOST_TEST(

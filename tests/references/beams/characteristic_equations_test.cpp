@@ -1,6 +1,6 @@
 // ctest: labels=verification
-// Programs with their own characteristic equation, compared with independently computed values of
-// 15 or more digits and with known limits.
+// Derivation programs with their own characteristic equation, compared with independently computed
+// values of 15 or more digits and with known limiting cases.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>

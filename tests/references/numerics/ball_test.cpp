@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_CASE(ball_decides_only_relations_true_for_all_its_numbers) {
   BOOST_TEST((third < Ball(1)));
   BOOST_TEST((Ball(1) > doubtful));
   BOOST_TEST((Ball(0) == Ball(0)));
-  BOOST_TEST(!(third - third == Ball(0)));  // not proved to be zero
+  BOOST_TEST(!(third - third == Ball(0)));  // the difference is a ball around 0, not exactly 0
   BOOST_CHECK_THROW((void)(third < doubtful), DerivationError);
   BOOST_CHECK_THROW((void)static_cast<int>(third), DerivationError);
   BOOST_TEST(static_cast<int>(ceil(third)) == 1);

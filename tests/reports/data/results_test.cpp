@@ -16,7 +16,8 @@ using trammel::results::read_results;
 
 namespace {
 
-/// Change of the sample's results.json: a new value, or an empty text to remove the value.
+/// Change of the sample's results.json: a new value at a JSON pointer; an empty text removes the
+/// value.
 struct Refusal {
   const char *pointer, *value, *message;
 };

@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(count_exact_on_every_mesh_has_no_figure) {
 BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   Run run = run_with({});
   run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3), judged("code", 1, 1)};
-  run.checks.back().quantity = "status";  // its number is a code
+  run.checks.back().quantity = "status";  // a status number, not a measurement
   auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
   BOOST_TEST_REQUIRE(figure.has_value());
   BOOST_TEST(contains(figure->caption, "All 2 numbers pass"));
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   for (int k = 0; k <= 20; ++k)
     run.drawing->poses.push_back(
         {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
-  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate instant
+  run.drawing->poses.push_back(run.drawing->poses.back());  // the last instant occurs twice
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);

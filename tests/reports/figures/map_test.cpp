@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
       contains(figure->caption,
                " in Hz; values far from zero are dark. Each class has about the same number of "
                "positions."));
-  BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of 70 values in each class
+  BOOST_TEST(contains(figure->commands, "'below 1'"));  // each class has ten values
   BOOST_TEST(contains(figure->alt, "The largest magnitude is 5.3 Hz"));
 }
 
@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
 }
 
 BOOST_AUTO_TEST_CASE(map_of_one_row_or_column_has_valid_cells_and_tics) {
-  // Gnuplot refuses a distance of 0 between the tick marks of a map. A report with such a map was
-  // once not written.
+  // Gnuplot refuses a distance of 0 between the tick marks of a map. The program once failed to
+  // write a report with such a map.
   std::string problem;
   for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
     const auto figure = draw(field(columns, rows), problem);

@@ -1,7 +1,7 @@
-// Tests a report in a browser: search, values on hover and by keys, moving modes, reduced motion, no
-// scripts, and axe-core on every kind of page. Arguments: the program, a separate folder, and
-// optionally a folder for pictures. puppeteer-core and axe-core are installed from npm. The exit status
-// is 77 if they or Chromium are not available.
+// Tests a report in a browser: search, values on hover and by keys, moving modes, reduced motion,
+// no scripts, and axe-core on every kind of page. Arguments: the program, a separate folder, and
+// optionally a folder for pictures. puppeteer-core and axe-core are installed from npm. The exit
+// status is 77 if puppeteer-core, axe-core or Chromium is not available.
 import {execFileSync} from "node:child_process";
 import {existsSync, mkdirSync, readFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -49,7 +49,7 @@ async function visit(name, width, {features = [], scripts = true} = {}) {
 }
 const picture = (page, name) => pictures && page.screenshot({path: join(pictures, name + ".png")});
 
-// Search.
+// Tests the search of the index page.
 let page = await visit("index.html", 1280);
 await page.click("#find summary");
 await page.waitForFunction(() => document.querySelectorAll("#find tbody tr").length > 0);
@@ -90,7 +90,7 @@ await page.goto(link);
 expect("its link leads to the check", await page.evaluate(() => document.getElementById(location.hash.slice(1)) !== null));
 await page.close();
 
-// Values on hover and by keys.
+// Tests the display of values in a figure on hover and by keys.
 page = await visit("cases/circle-load.html", 1280);
 const drawing = await page.$("figure svg[data-axes]");
 await drawing.scrollIntoView();
@@ -108,7 +108,7 @@ const first = await reading();
 await page.keyboard.press("ArrowRight");
 expect("arrow keys read values", first !== "" && await reading() !== first);
 
-// Zoom by a frame, by keys, and back.
+// Tests zooming a figure by a dragged frame and by keys, and zooming back.
 const view = () => page.$eval("figure svg[data-axes]", e => e.getAttribute("viewBox").split(" ").map(Number));
 const whole = await view(), at4 = await reading();
 await page.keyboard.press("+");
@@ -123,7 +123,7 @@ expect("a frame enlarges what is in it", (await view())[2] < 0.3 * whole[2]);
 await picture(page, "zoom-1280");
 await page.close();
 
-// Moving modes.
+// Tests the animation of mode shapes.
 const shape = page => page.$$eval("svg.moving path[stroke='#1f5fa8']", paths => paths.map(p => p.getAttribute("d")).join());
 page = await visit("cases/manipulator-modes.html", 1280);
 await page.$eval("svg.moving", e => e.scrollIntoView({block: "center"}));
@@ -153,7 +153,7 @@ await pause(300);
 expect("with reduced motion they are still", await shape(page) === still);
 await page.close();
 
-// Motion along its path.
+// Tests the animation of a motion along its path, with and without the setting for reduced motion.
 for (const reduced of [false, true]) {
   page = await visit("cases/elastodynamics-circle.html", 1280, {features: reduced ? [["prefers-reduced-motion", "reduce"]] : []});
   const motion = () => page.$eval("figure[id$=-motion] svg.moving", e => e.querySelector("text").textContent + [...e.querySelectorAll("path")].map(p => p.getAttribute("d")).join());
@@ -176,7 +176,7 @@ for (const reduced of [false, true]) {
   await page.close();
 }
 
-// Without scripts.
+// Tests the page without scripts.
 page = await visit("cases/manipulator-modes.html", 1280, {scripts: false});
 await picture(page, "no-script");
 await page.close();
@@ -191,7 +191,7 @@ for (const name of ["index.html", "cases/manipulator-modes.html"]) {
   expect(`${name} says all without scripts`, html.includes("<table") && !/<noscript/.test(html));
 }
 
-// Accessibility, and no horizontal scrolling.
+// Tests accessibility with axe-core, and that no page scrolls horizontally.
 for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "cases/elastodynamics-circle.html", "families/manipulator-modes.html", "references.html", "references/manipulator-modes.html"])
   for (const width of [1280, 400])
     for (const scheme of ["light", "dark"]) {

@@ -74,14 +74,14 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
 }
 
 BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
-  // The check "shifted" compares mode 1 with the target of mode 2. The matrix once showed its
-  // result in the column of mode 1, so that the target of mode 1 seemed to be reached.
+  // The check "shifted" compares mode 1 with the target of mode 2. The matrix once showed the
+  // result of this check in the column of mode 1, as if the target of mode 1 was reached.
   Sample sample;
   for (int entry = 0; entry < 2; ++entry)
     sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));
   const std::string words = sample.conclusion(sample.results.runs[1].checks[0]);
   BOOST_TEST(contains(words, "modes 1 (nearest +10\u202f%), 2 (nearest +20\u202f%), 3"), words);
-  BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // one variant
+  BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // a single variant
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -29,14 +29,14 @@ std::string stress_suite_of(const Results& results) {
 
 BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
   Results results = with_stress_suite();
-  results.runs[0].checks[1].verdict = Verdict::fail;  // a value of the indicator "exact"
+  results.runs[0].checks[1].verdict = Verdict::fail;  // a check of the indicator "exact"
   const std::string text = stress_suite_of(results);
   BOOST_TEST(text.find("3 items, 3 cases, 3 indicators:") != std::string::npos);
   const std::size_t first = text.find("cases/" + results.cases[2].id),
                     third = text.find("cases/" + results.cases[0].id),
                     fourth = text.find("cases/" + results.cases[1].id);
   BOOST_TEST((first < third && third < fourth && fourth != std::string::npos));
-  BOOST_TEST(occurrences(text, "<tr><th scope=\"row\">") == 6U);  // cases and indicators
+  BOOST_TEST(occurrences(text, "<tr><th scope=\"row\">") == 6U);  // three cases, three indicators
   BOOST_TEST(text.find("1 fails") != std::string::npos);
   BOOST_TEST(occurrences(text, "class=\"mark fails\"") == 1U);
 }

@@ -24,7 +24,7 @@ TransientOptions options_of(Integrator integrator, double step, double end) {
   return options;
 }
 
-/// Integrates a motion and requires that it is solved.
+/// Integrates a motion, and requires that the integration succeeds.
 State run(const GeometricallyExactSystem& system, const TransientOptions& options,
           IntegrationSummary* found = nullptr, const Observer& observe = {}) {
   State state;
@@ -112,9 +112,9 @@ BOOST_AUTO_TEST_CASE(torque_law_turns_a_wheel_by_its_double_integral) {
   }
 }
 
-/// The energy-momentum method computes the mean force of a rod in each step, and extrapolates it to
-/// the end of the step. In this test, a mass at rest is pulled outward by a force of t N. The
-/// extrapolation is then exact, even for a last step of half length.
+/// The energy-momentum method computes the mean force of a rod in each step, and extrapolates the
+/// force to the end of the step. In this test, a mass at rest is pulled outward by a force of t N.
+/// The extrapolation is then exact, even for a last step of half length.
 BOOST_AUTO_TEST_CASE(force_after_a_shorter_step_is_that_at_its_end) {
   Model model = simple_pendulum();
   model.gravity = {0, 0};

@@ -35,7 +35,7 @@ double largest(const Eigen::MatrixX2d& rows) {
 
 BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
   for (const ElbowKind elbow : kElbows) {
-    ElastodynamicsOptions options = options_of(elbow, 1e-4, 6e4, 1);  // 1e-8 of the inertia
+    ElastodynamicsOptions options = options_of(elbow, 1e-4, 6e4, 1);  // inertia forces * 1e-8
     options.wrench = {10, 0, 0};
     options.gravity = {0, -1};
     options.elastic_inertia = false;
@@ -105,9 +105,9 @@ BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   BOOST_TEST(largest(solve_elastodynamics(options).deflection - still.deflection) > 0.03 * size);
 }
 
-/// A quasi-static start with damping is a different state than the equilibrium without damping, and
-/// has different velocities. The difference of the strain rates once caused spurious damping forces
-/// at the start.
+/// A quasi-static start with damping differs from the equilibrium without damping, and has
+/// different velocities. The difference of the strain rates once caused spurious damping forces at
+/// the start.
 BOOST_AUTO_TEST_CASE(strongly_damped_start_agrees_with_linear_theory) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
   options.wrench = {1e-3, 5e-4, 0};
@@ -119,12 +119,12 @@ BOOST_AUTO_TEST_CASE(strongly_damped_start_agrees_with_linear_theory) {
   BOOST_TEST_REQUIRE(large.outcome.solved(), large.outcome.reason);
   BOOST_TEST((large.state.front().resultant_end - linear.resultant_end).norm() <
              5e-3 * linear.resultant_end.norm());
-  options.wrench = {10, 0, 0};  // Newton's method once omitted the damping
+  options.wrench = {10, 0, 0};  // once failed: Newton's method omitted the damping
   BOOST_TEST(solve_large_elastodynamics(options).outcome.solved());
 }
 
-/// Time steps end at the breakpoints of the load history. A pulse that lasts a fifth of a step was
-/// once missed.
+/// Time steps end at the breakpoints of the load history. The time integration once missed a pulse
+/// that lasts a fifth of a step.
 BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
   ElastodynamicsOptions options = options_of(ElbowKind::welded, 0.01, 0.04, 5e-3);
   options.wrench = {1, 0, 0};

@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(path_does_not_jump_to_a_near_branch) {
     BOOST_REQUIRE(path.events.size() == 2U);
     BOOST_TEST((path.events[0].kind == PathEvent::Kind::limit_point));
     BOOST_TEST((path.events[1].kind == PathEvent::Kind::limit_point));
-    BOOST_TEST(path.points.back().unstable_directions == 0);  // the arch is inverted
+    BOOST_TEST(path.points.back().unstable_directions == 0);  // the inverted arch is stable
     BOOST_TEST(node_motion(system, path.points.back().state.q)(4, 1) < -10);
   }
 }

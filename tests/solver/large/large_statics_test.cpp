@@ -47,8 +47,8 @@ double elastica_error(const Elastica& exact, Index elements, double angle = 0) {
                    std::abs(moved[2] - exact.angle)});
 }
 
-/// Returns the equilibrium of the elastica under a force at its tip, as `estimate_large_statics`
-/// approximates it.
+/// Returns the equilibrium of the elastica under a force at its tip, approximated by
+/// `estimate_large_statics`.
 StaticSolution estimate_of(const Vector2d& force) {
   Model model = elastica(8);
   model.loads = {{1, {force.x(), force.y(), 0}}};
@@ -58,7 +58,7 @@ StaticSolution estimate_of(const Vector2d& force) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(stable_path_with_small_error_uses_two_tangents) {
-  const double critical = kPi * kPi / 4;  // P L^2 / EI
+  const double critical = kPi * kPi / 4;  // buckling value of P L^2 / EI
   BOOST_TEST(estimate_of({0, 0.1}).counters.factorizations == 2);
   BOOST_TEST(estimate_of({-0.9 * critical, 0}).counters.factorizations == 2);
   BOOST_TEST(estimate_of({-1.1 * critical, 0}).counters.factorizations > 2);
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_fine_mesh_shortens_no_step) {
   Model model = elastica(1024);
   model.loads = {{1, {0, kSmall.load, 0}}};
   const GeometricallyExactSystem system(model);
-  std::fesetround(FE_UPWARD);  // perturbs the tangent: corrections shrink by a factor of only 60
+  std::fesetround(FE_UPWARD);  // perturbs the tangent: Newton corrections shrink only 60-fold
   StaticPathOptions options;
   options.max_points = 20;
   const StaticPath path = follow_static_path(system, options);
@@ -111,7 +111,8 @@ BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
   BOOST_TEST(pairs >= 1);
 }
 
-// A straight column under a follower load has no static instability (M. Beck, ZAMP 3, 1952).
+// A straight column under a follower load has no static instability at any load (M. Beck, ZAMP 3,
+// 1952).
 BOOST_AUTO_TEST_CASE(follower_load_converges_in_any_unit_and_direction) {
   for (const double stiffness : {1e-10, 1e5, 1e20})
     for (const double angle : {0.1, 0.36, 1.4}) {
@@ -141,7 +142,7 @@ BOOST_AUTO_TEST_CASE(section_forces_balance_the_loads_in_the_bent_shape) {
       1e-11);
 }
 
-BOOST_AUTO_TEST_CASE(free_motion_is_named) {  // and a model without coordinates has one point
+BOOST_AUTO_TEST_CASE(free_motion_is_named) {  // and a path without coordinates is one point
   Model model = beam(unit_section(), 1, 2);
   model.supports = {pin(0)};
   model.loads = {{1, {0, 1, 0}}};

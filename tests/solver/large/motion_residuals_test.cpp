@@ -30,8 +30,8 @@ TransientOptions options_for(double end) {
   return options_to(end, 0.01, generalized_alpha(0.9));
 }
 
-/// Integrates a motion of the pendulum, and changes its last state. @returns the outcome of the
-/// checks of the residuals of the changed state
+/// Integrates a motion of the pendulum, and changes its last state.
+/// @returns the outcome of the residual checks of the changed state
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;
@@ -57,8 +57,8 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
     BOOST_TEST(!outcome.solved());
     BOOST_TEST(outcome.reason.find(residual) != std::string::npos, outcome.reason);
   };
-  refused([](State& s) { s.a.setZero(); }, "equation of motion");  // no inertia
-  refused([](State& s) { s.t -= 0.01; }, "equation of motion");    // force of another time
+  refused([](State& s) { s.a.setZero(); }, "equation of motion");  // no inertia force
+  refused([](State& s) { s.t -= 0.01; }, "equation of motion");    // force at another time
   refused([](State& s) { s.v = -s.v; }, "equation of motion");     // damping of the wrong sign
   refused([](State& s) { s.lambda *= 1 + 1e-3; }, "equation of motion");  // early termination
   refused([](State& s) { s.q.array() += 1e-8; }, "constraints");          // drift off the rod
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(wrong_member_forces_are_out_of_balance) {
   StaticPath path = follow_static_path(system);
   BOOST_TEST(path.outcome.solved(), path.outcome.reason);
   BOOST_TEST(path.evidence.largest(Residual::recovered_forces) < 1e-13);
-  BOOST_TEST(path.evidence.largest(Residual::recovered_forces) > 0);  // nonzero, so it is computed
+  BOOST_TEST(path.evidence.largest(Residual::recovered_forces) > 0);  // round-off, thus computed
   State& state = path.points.back().state;
   const auto residual = [&] {
     MemberBalance balance;
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(start_has_the_velocity_and_acceleration_of_its_drive) {
   BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 1e-3).solved());
   BOOST_TEST(node_motion(system, state.q)(0, 2) == 0.06, tolerance(1e-12));
   BOOST_TEST(node_motion(system, state.v)(0, 2) == 0.6, tolerance(1e-12));
-  BOOST_TEST(node_motion(system, state.a)(0, 2) == 3, tolerance(1e-6));  // by finite differences
+  BOOST_TEST(node_motion(system, state.a)(0, 2) == 3, tolerance(1e-6));  // differenced numerically
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -24,13 +24,13 @@ BOOST_AUTO_TEST_CASE(missed_and_repeated_modes_are_counted) {
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
-  // The last argument, a shift, must separate the found eigenvalues from all higher ones. If it
-  // does not, as in the next two lines, the count below the last clear gap between eigenvalues is
-  // used.
+  // The last argument, a shift, must lie between the computed eigenvalues and all higher
+  // eigenvalues. The next two shifts do not, so that the count below the last clear gap between
+  // eigenvalues is used.
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
   BOOST_TEST(count_dependent_vectors(B, shapes) == 0);
-  // The lowest eigenvalue is missing and another is repeated, so the number of values is correct.
+  // The lowest eigenvalue is missing and another eigenvalue is repeated, so the count is correct.
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
   shapes.col(0) = 0.6 * shapes.col(1) + 0.8 * shapes.col(2);
   BOOST_TEST(count_dependent_vectors(B, shapes) == 1);

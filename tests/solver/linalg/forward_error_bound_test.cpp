@@ -18,7 +18,7 @@ FactoredStiffness factors(const MatrixXd& A) {
   return {A.sparseView(), A.cwiseAbs().sparseView(), VectorXd::Ones(A.rows())};
 }
 
-/// Solution of A^T C A q = f with the error bound of all its coordinates.
+/// Solution q of A^T C A q = f with an error bound of all its coordinates.
 struct Bounded {
   VectorXd q;
   double bound = 0;
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
 }
 
 BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
-  for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in series, the first one stiff
+  for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in series; the first spring is stiff
     FactoredStiffness K = factors(MatrixXd{{1, 0}, {-1, 1}});
     K.C = Eigen::Vector2d(stiff, 1);
     const auto [q, bound] = bounded_solution(K, Eigen::Vector2d(0, 1));
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
 }
 
 // R selects the coordinate q[1] as the only result. The norm in the error bound is then a sum,
-// which the program computes exactly instead of estimating it.
+// which the program computes exactly instead of estimating the norm.
 BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   FactoredStiffness K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);

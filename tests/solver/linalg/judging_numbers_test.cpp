@@ -31,8 +31,8 @@ BOOST_AUTO_TEST_CASE(dependent_column_has_a_pivot_of_zero) {
   BOOST_TEST(found.x == Eigen::Vector3d(1, 2, 3));
 }
 
-// The exact strain of a bar within a rigid body is zero, but the rounded motion of the body strains
-// it.
+// The exact strain of a bar within a rigid body is zero, but the rounded motion of the body causes
+// a nonzero computed strain.
 BOOST_AUTO_TEST_CASE(terms_that_cancel_in_a_strain_keep_their_size) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};

@@ -7,8 +7,8 @@ BOOST_AUTO_TEST_SUITE(lanczos)
 using namespace trammel::solver;
 using Eigen::VectorXd;
 
-// The library Spectra throws if values overflow or the start vector is zero. The exception was once
-// reported as an internal error.
+// The library Spectra throws an exception if values overflow or the start vector is zero. The
+// program once reported this exception as an internal error.
 BOOST_AUTO_TEST_CASE(overflow_and_zero_start_have_no_eigenpairs) {
   const auto overflowing = [](const VectorXd& x) -> VectorXd { return 1e300 * (1e300 * x); };
   const auto identity = [](const VectorXd& x) { return x; };

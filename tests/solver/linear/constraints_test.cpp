@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(rigid_body_has_three_motions) {
 
 BOOST_AUTO_TEST_CASE(redundant_constraints_are_dropped) {
   Model model = rigid_triangle();
-  model.rigid_bodies.push_back({"again", 1, {2, 3, 0}});  // the same body from another node
+  model.rigid_bodies.push_back({"again", 1, {2, 3, 0}});  // the same nodes, another reference node
   model.supports = {pin(1), {"", 1, {true, false, false}}};
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(inextensible_parallel_links_leave_one_motion) {
     return m;
   };
   model.rigid_bodies = {{"coupler", 1, {2, 5}}};
-  model.members = {link(0, 1), link(3, 2), link(4, 5)};  // the third one is redundant
+  model.members = {link(0, 1), link(3, 2), link(4, 5)};  // the third link is redundant
   model.supports = {pin(0), pin(3), pin(4)};
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);

@@ -63,13 +63,13 @@ BOOST_AUTO_TEST_CASE(stretch_error_of_1_percent_is_1_percent_in_norms) {
   BOOST_TEST(e.displacement == 0.01, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(e.stress == 0.01, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(e.energy == 0.01, boost::test_tools::tolerance(1e-10));
-  BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, computed 0
+  BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // 0.5e-3 exact; 0 computed
 }
 
 BOOST_AUTO_TEST_CASE(energy_of_an_error_is_that_of_its_stresses) {
   const t::System system = membrane();
   const Eigen::Vector3d found = stretched(1e-3, {}).stress, exact(3e7, -5e7, 8e7);
-  const auto energy = [](const Eigen::Vector3d& s) {  // s^T C^-1 s
+  const auto energy = [](const Eigen::Vector3d& s) {  // s^T C^-1 s, stress s
     const double nu = kMaterial.nu;
     Eigen::Matrix3d compliance;
     compliance << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(error_relative_to_zero_is_not_finite) {
   const t::System system = beam(t::BeamTheory::euler_bernoulli);
   const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
   const t::BeamErrors e = t::beam_errors(system, nodal_bending(system, 1e-3), exact);
-  BOOST_TEST(!std::isfinite(e.axial_force));  // the exact value is 0
+  BOOST_TEST(!std::isfinite(e.axial_force));  // the exact axial force is 0
 }
 
 BOOST_AUTO_TEST_CASE(missing_value_spoils_every_norm) {

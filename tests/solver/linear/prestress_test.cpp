@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(inextensible_column_buckles_as_a_stiff_one) {
 
 BOOST_AUTO_TEST_CASE(load_past_buckling_has_no_stable_state) {
   Model model = column(8, 0.3);
-  model.loads[0].force *= 3;  // above the buckling load, pi^2 / 4 = 2.47 N
+  model.loads[0].force *= 3;  // 3 N, above the buckling load pi^2 / 4 = 2.47 N
   const ModalSolution r = solve_prestressed_modes(assemble(model), {3, EigenMethod::dense});
   BOOST_TEST((r.outcome.status == Status::singular));
   BOOST_TEST(r.outcome.reason.starts_with("the loads reach or exceed the buckling load"));

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(member_modes_lower_frequencies_to_the_full_ones) {
     BOOST_TEST(reduced.K.rows() == 3 + 2 * modes);
     const Eigen::VectorXd excess =
         (frequencies(reduced, 3) - exact.head(3)).cwiseQuotient(exact.head(3));
-    BOOST_TEST(excess.minCoeff() > -1e-9);  // a constrained model is stiffer
+    BOOST_TEST(excess.minCoeff() > -1e-9);  // the reduced model is stiffer
     BOOST_TEST(excess.maxCoeff() < 0.7 * before);
     before = excess.maxCoeff();
   }
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_squared_frequency_ratio) {
     const Eigen::VectorXcd whole = answer(full, frequency);
     const double off = (answer(reduced, frequency) - whole).norm() / whole.norm();
     BOOST_TEST(off < ratio * ratio / (1 - ratio * ratio));
-    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // the error of truncation is not negligible
+    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // the reduction has an effect
   }
 }
 

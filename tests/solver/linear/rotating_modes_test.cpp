@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(huge_coordinates_do_not_crash) {
       try {
         const RotatingModes r = rotate(far, 10, 2, path);
         BOOST_TEST((!r.outcome.solved() || r.frequency.size() == 2), size);
-      } catch (const ModelError& error) {  // lengths beyond the range of double
+      } catch (const ModelError& error) {  // overflow of lengths
         BOOST_TEST(size >= 1e155, error.what());
       }
     }

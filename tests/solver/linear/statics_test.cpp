@@ -19,8 +19,8 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Returns the displacement of the joint of two hinged bars, EA = 1, under a unit force along y. It
-/// is computed in extended precision from the rounded positions of the nodes.
+/// Returns the displacement of the joint of two hinged bars, EA = 1, under a unit force along y.
+/// The displacement is computed in extended precision from the rounded positions of the nodes.
 Vector2d joint_of_a_toggle(const Model& model) {
   std::array<std::array<long double, 2>, 2> n{};
   std::array<long double, 2> L{};
@@ -33,7 +33,7 @@ Vector2d joint_of_a_toggle(const Model& model) {
     for (long double& component : n[i]) component /= L[i];
   }
   const long double det = n[0][0] * n[1][1] - n[0][1] * n[1][0];
-  const long double e0 = -n[1][0] / det * L[0], e1 = n[0][0] / det * L[1];  // N L / EA
+  const long double e0 = -n[1][0] / det * L[0], e1 = n[0][0] / det * L[1];  // elongations N L / EA
   return {static_cast<double>((e0 * n[1][1] - e1 * n[0][1]) / det),
           static_cast<double>((e1 * n[0][0] - e0 * n[1][0]) / det)};
 }
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
   // Two nearly collinear hinged bars meet at a joint of small height. The error estimate was once
   // proportional to the condition number of K, 1/height^2, so that heights below 1e-7 were refused.
   // The displacement has a relative error of only eps/height.
-  std::vector<double> beyond;  // number of correct digits minus its estimate
+  std::vector<double> beyond;  // correct digits minus estimated correct digits
   for (int power = 1; power <= 12; ++power) {
     const double height = std::pow(10.0, -power);
     Model model;

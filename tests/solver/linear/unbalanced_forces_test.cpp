@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(reported_forces_balance_at_every_node) {
 
 BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
   // Along the girder of this portal, only the constraint forces of inextensible members act. The
-  // round-off of their balance was once divided by a scale of zero.
+  // program once divided the unbalanced force, which is round-off, by a scale of zero.
   Model model;
   model.nodes = {{"A", {0, 0}},
                  {"B", {0, 10.16}},

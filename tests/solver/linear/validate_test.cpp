@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(valid_model_is_accepted) {
 }
 
 BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
-  // Moves a middle node along its side and toward the third node, by fractions of these distances.
+  // Moves the middle node of side k by fractions of the side and of the distance to the third node.
   const auto moved = [](std::size_t k, double along, double inwards) {
     return model_error_message([&](Model& m) {
       const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };
@@ -59,17 +59,17 @@ BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
   };
   for (std::size_t k = 0; k < 3; ++k) {
     for (const double sign : {-1, 1}) {
-      BOOST_TEST(moved(k, sign * 0.24, 0) == "no error");  // det = 1 -+ 4 along at the ends
+      BOOST_TEST(moved(k, sign * 0.24, 0) == "no error");  // determinant at the ends: 1 -+ 4 along
       BOOST_TEST(moved(k, sign * 0.26, 0) ==
                  "triangle 0 has mid-side nodes that fold it over itself");
     }
-    BOOST_TEST(moved(k, 0, 0.45) == "no error");  // det = 1 - 2 inwards on all of the side
+    BOOST_TEST(moved(k, 0, 0.45) == "no error");  // determinant on the side: 1 - 2 inwards
     BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 has mid-side nodes that fold it over itself");
   }
 }
 
 BOOST_AUTO_TEST_CASE(triangle_folded_at_a_middle_node_is_refused) {
-  const auto folded = [](Model& m) {  // det >= 0.2 at the corners, -0.2 at one middle
+  const auto folded = [](Model& m) {  // determinant: corners >= 0.2, a middle -0.2
     m.nodes[2].position = {0, 1};
     m.triangles[0].nodes = {0, 1, 2, 3, 4, 5};
     for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})

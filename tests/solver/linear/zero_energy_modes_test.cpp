@@ -29,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 BOOST_AUTO_TEST_CASE(beam_without_supports_has_three_free_motions) {
   const std::string text = words(beam(unit_section(), 1, 4));
-  BOOST_TEST(std::ranges::count(text, ';') == 2, text);  // three motions
+  BOOST_TEST(std::ranges::count(text, ';') == 2, text);  // two separators: three motions
   BOOST_TEST(contains(text, "free motion: node A along x 1, node B along x 1"), text);
 }
 

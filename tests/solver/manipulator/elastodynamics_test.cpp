@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(matrices_of_a_resting_manipulator_are_factored_once) {
   const ElastodynamicsOptions options = resting(5e-4);
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST(s.time.size() == 201U);
-  BOOST_TEST(s.summary.counters.factorizations == 3);  // mass, step, stiffness
+  BOOST_TEST(s.summary.counters.factorizations == 3);  // of mass, step matrix and stiffness
 }
 
 BOOST_AUTO_TEST_CASE(effects_of_inertia_and_gyroscopic_terms_are_estimated) {
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(mechanism_has_no_quasi_static_deflection) {
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   BOOST_TEST(std::isnan(s.effects.nominal_inertia));
   BOOST_TEST(s.quasi_static_deflection.array().isNaN().all());
-  BOOST_TEST(s.effects.first_frequency > 0);  // elastic, after three rigid motions
+  BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic frequency
 }
 
 BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
   const std::vector<std::function<void(ElastodynamicsOptions&)>> changes = {
       [](auto& o) { o.modal_superposition = true; },
       [&](auto& o) {
-        o.path = line;  // at rest only at its samples
+        o.path = line;  // at rest at the samples only
         o.time.sample_times = {0, 0.2};
         o.modal_superposition = true;
       },

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(energy_residual_does_not_depend_on_the_samples) {
   const auto residual = [](int count) {
     RigidManipulator m = rigid_manipulator(table_1_design());
     const auto torque = [&m](double t) {
-      if (t > 0.05) m.gravity = {0, -0.1};  // jump of potential energy
+      if (t > 0.05) m.gravity = {0, -0.1};  // gravity starts: the potential energy jumps
       return Vector3d(0.1, 0.1, 0.1);
     };
     return solver::forward_dynamics(m, {0, centered_pose()}, torque, times_to(0.1, count))
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
   m.gravity = {0, -9.81};
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
   for (const double late : {0.0, 1e-3}) {
-    double last = kNaN;  // the integrator evaluates each time before the residuals do
+    double last = kNaN;  // time of the last call
     const auto torque = [&](double t) {
       const bool first = t != last;
       last = t;

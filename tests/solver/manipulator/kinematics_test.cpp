@@ -87,9 +87,9 @@ BOOST_AUTO_TEST_CASE(pose_out_of_reach_names_limb_and_distance) {
 }
 
 BOOST_AUTO_TEST_CASE(elbow_angle_keeps_its_digits_near_full_stretch) {
-  // Limb 1 is along x, with links of 1/2 and a gap h to full stretch. The exact angle at A is 2
-  // asin(sqrt(h / 2)), since its cosine is 1 - h. The acos of a rounded cosine is useless below h ~
-  // 1e-9.
+  // Limb 1 is along x, with links of length 1/2, and a distance h short of its full length. The
+  // exact angle at A is 2 asin(sqrt(h / 2)), because its cosine is 1 - h. The acos of a rounded
+  // cosine is inaccurate below h ~ 1e-9.
   ManipulatorGeometry g = table_1_geometry();
   g.base[0] = {0, 0};
   g.platform[0] = {0, 0};

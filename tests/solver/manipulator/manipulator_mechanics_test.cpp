@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(rigid_platform_is_the_limit_of_a_stiff_plate) {
     ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
     design.platform.material.E *= factor;
     const double difference = (of_P(solve(design, kPose, kForce)) - rigid).norm() / rigid.norm();
-    if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // order 1 / factor
+    if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // proportional to 1/factor
     if (factor == 100) BOOST_TEST(difference < 1e-6);
     last = difference;
   }

@@ -39,7 +39,7 @@ double triangle_area(const Model& model, const Triangle& t) {
   return (u.x() * v.y() - u.y() * v.x()) / 2;
 }
 
-/// Mass, first moment and polar inertia of the platform about the origin.
+/// Mass, first moment of mass, and polar moment of inertia of the platform, about the origin.
 struct Bulk {
   double mass = 0;
   Vector2d first_moment = Vector2d::Zero();

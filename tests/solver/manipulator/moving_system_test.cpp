@@ -37,7 +37,7 @@ std::vector<ManipulatorDesign> designs() {
     for (LinkDesign& link : design.distal) link.elements = 3;
   all[1].platform.kind = PlatformKind::rigid;
   all[1].platform_joint.fill({PlatformJointKind::welded});
-  all[2].platform.kind = PlatformKind::rigid;  // P off the center of mass, printed inertias
+  all[2].platform.kind = PlatformKind::rigid;  // P off the mass center; printed inertias
   for (Vector2d& c : all[2].geometry.platform) c += Vector2d(0.01, -0.005);
   for (std::size_t i = 0; i < 3; ++i) {
     all[2].proximal[i].inertia = all[2].distal[i].inertia = 0.00078;
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
         BOOST_TEST(difference(walk.moving.external_load(), built.f) < 1e-12);
         continue;
       }
-      // The moved system and the system that is assembled at this pose may have eliminated
+      // The system moved to this pose and the system assembled at this pose may have eliminated
       // different coordinates. The test therefore compares eigenvalues instead of matrices.
       const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
       const VectorXd there = all_modes(built.M, built.K).omega;
@@ -171,15 +171,15 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   const System& system = walk.moving.start();
   VectorXd u = VectorXd::Zero(system.coordinates.size);
   for (const auto& c : system.coordinates.node) u.segment<2>(c[0]) = Vector2d(0.3, -0.8);
-  // A common displacement of all nodes violates only the constraints of the supports. These
-  // constraints affect only elements at the supports.
+  // A common translation of all nodes violates the constraints of the supports only. Elements
+  // without a supported node are not affected.
   VectorXd q(walk.moving.K().rows());
   for (std::size_t i = 0; i < system.constraints.free.size(); ++i)
     if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
   const VectorXd damping = walk.moving.gyroscopic_matrix() * q;
   const VectorXd stiffness = walk.moving.centrifugal_and_euler_matrix() * q;
   const double scale = walk.moving.gyroscopic_matrix().norm();
-  for (std::size_t node = 6; node < 10; ++node) {  // C1 C2 C3, P
+  for (std::size_t node = 6; node < 10; ++node) {  // nodes C1, C2, C3 and P, without supports
     for (std::size_t k = 0; k < 2; ++k) {
       const Index i =
           system.constraints.free[static_cast<std::size_t>(system.coordinates.node[node][k])];

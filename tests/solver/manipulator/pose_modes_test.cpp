@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_followed) {
 }
 
 BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_copies) {
-  // In the center the manipulator has a threefold symmetry with pairs of equal frequencies.
+  // At the center, the manipulator has a threefold symmetry with pairs of equal frequencies.
   const std::vector<Pose> poses(3, centered_pose());
   const ManipulatorDesign design = with_elements(4);
   for (const Index count : {1, 2, 3, 4, 5, 6}) check("repeated", design, poses, count);
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(count_below_a_shift_is_that_of_the_full_model) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(number_of_solves_stays_small) {  // the count is the same on every machine
+BOOST_AUTO_TEST_CASE(number_of_solves_stays_small) {  // counts are reproducible, unlike times
   const PoseModes modes = solve_pose_modes(with_elements(4), circle(640, 0.01), {.count = 3});
   BOOST_TEST(modes.by_itself == 0);
   BOOST_TEST(modes.counters.solves < 640 * 6 * 6);  // six vectors, six inverse iterations per pose

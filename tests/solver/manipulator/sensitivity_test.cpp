@@ -29,8 +29,8 @@ BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
 }
 
 BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
-  // The threefold symmetry has pairs of equal frequencies, whose shapes the eigensolver mixes
-  // arbitrarily.
+  // The threefold symmetry causes pairs of equal frequencies. The eigensolver returns an arbitrary
+  // basis of the two mode shapes.
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;
     for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
     all += arc.size();
     for (const Vector2d& P : arc) {
       const Vector2d inward = 1e-9 * (Vector2d(0.25, 0.144) - P).normalized();
-      bool found = false;  // one side of the arc has a nearly singular pose
+      bool found = false;  // true: a pose next to the arc is nearly singular
       for (const double side : {1.0, -1.0}) {
         const Pose pose{P.x() + side * inward.x(), P.y() + side * inward.y(), 0.2};
         const Posture posture = inverse_kinematics(geometry, pose);
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
       points += found ? 0 : 1;
     }
   }
-  BOOST_TEST(all > 180U);  // at least half a turn of the three circles together
+  BOOST_TEST(all > 180U);  // 180 points are half a circle
   BOOST_TEST(points == 0U);
 }
 

@@ -49,7 +49,8 @@ BOOST_AUTO_TEST_CASE(rest_to_rest_motion_starts_and_ends_at_rest) {
     BOOST_TEST(at(path, t).acceleration.norm() == 0.0);
   }
   BOOST_TEST((as_vector(at(path, 2).pose) - as_vector(kTo)).norm() < 1e-16);
-  // The motion is symmetric about its middle, where its speed is 15/8 of the mean speed.
+  // The motion is symmetric about the middle of its duration, where the speed is 15/8 of the mean
+  // speed.
   const Vector3d mean = (as_vector(kTo) - as_vector(kFrom)) / 2;
   BOOST_TEST((at(path, 1).velocity - 15.0 / 8 * mean).norm() < 1e-15);
   BOOST_TEST((at(path, 0.5).velocity - at(path, 1.5).velocity).norm() < 1e-15);
@@ -57,7 +58,7 @@ BOOST_AUTO_TEST_CASE(rest_to_rest_motion_starts_and_ends_at_rest) {
 
 BOOST_AUTO_TEST_CASE(spline_reproduces_a_cubic) {
   // x = t^3 - 3 t^2 on [0, 2] starts and ends at rest. A spline with ends at rest must reproduce
-  // it.
+  // this cubic.
   const auto cubic = [](double t) { return t * t * (t - 3); };
   const std::vector<double> times{0, 0.3, 0.9, 1.2, 2};
   std::vector<Pose> poses;
@@ -90,7 +91,7 @@ BOOST_AUTO_TEST_CASE(periodic_spline_converges_with_order_4) {
       const double t = 0.01 * k;
       worst = std::max(worst, (as_vector(at(path, t).pose) - as_vector(at(circle, t).pose)).norm());
     }
-    if (last > 0) BOOST_TEST(std::abs(std::log2(last / worst) - 4) < 0.1);  // theory: 4
+    if (last > 0) BOOST_TEST(std::abs(std::log2(last / worst) - 4) < 0.1);  // theoretical order: 4
     last = worst;
     BOOST_TEST((at(path, times.front()).velocity - at(path, times.back()).velocity).norm() < 1e-15);
   }

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(modes_are_orthogonal_without_massless_coordinates) {
   BOOST_TEST(
       (stiffness - Eigen::MatrixXd(basis.omega.array().square().matrix().asDiagonal())).norm() <
       1e-12);
-  BOOST_TEST(basis.omega[0] == 0);  // uniform motion: the rows of K have zero sums
+  BOOST_TEST(basis.omega[0] == 0);  // rigid-body mode: the rows of K have zero sums
 }
 
 BOOST_AUTO_TEST_CASE(load_takes_the_value_after_a_jump) {

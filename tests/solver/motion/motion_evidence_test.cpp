@@ -46,8 +46,8 @@ struct AskedFirst {
   }
 };
 
-/// Returns an oscillator with wrong matrices in the time integration and correct matrices in the
-/// evaluation of residuals. `spoil` changes the matrices.
+/// Returns an oscillator whose matrices are correct in the residuals, but changed by `spoil` in the
+/// time integration.
 template <class Spoil>
 EquationOfMotion seen_wrongly(const Spoil& spoil) {
   EquationOfMotion equation = oscillator();
@@ -69,8 +69,8 @@ BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
     BOOST_TEST_REQUIRE(h.summary.outcome.solved(), h.summary.outcome.reason);
     BOOST_TEST(h.summary.evidence.largest(Residual::energy) < 1e-13);
     BOOST_TEST(h.summary.evidence.largest(Residual::equation_of_motion) < 1e-14);
-    // The energy residual above is that of the discrete energy balance. The change of mechanical
-    // energy also contains the error of the time integration.
+    // The energy residual belongs to the discrete energy balance of the scheme. The change of
+    // mechanical energy also contains the error of the time integration.
     const double off = std::abs(h.energy.back().total() - h.energy.front().total());
     if (spectral_radius(scheme, 100) < 0.9) BOOST_TEST(off > 1e-6);
   }

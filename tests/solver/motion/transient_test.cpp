@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
 
 BOOST_AUTO_TEST_CASE(decayed_vibration_ends_in_zeros) {
   EquationOfMotion equation = chain(4, 1, 200);
-  // The amplitude falls by a factor of 0.5 per step and underflows after 1075 steps.
+  // The amplitude decreases by a factor of 0.5 per step and underflows to 0 after 1075 steps.
   TransientOptions options = options_to(40000, 1, generalized_alpha(0.5));
   options.sample_times = {0, 40000};
   options.v0 = VectorXd::Ones(4);

@@ -42,8 +42,8 @@ inline bool is_roundoff(const std::string& name) {
          has("estimated_correct_digits") || has("peak_time_s");
 }
 
-/// Returns true for quantities of edges and of tapered members. They have no counterpart in an
-/// exported case.
+/// Returns true for quantities of edges and of tapered members, which do not exist in an exported
+/// case.
 inline bool has_no_exported_counterpart(const std::string& name, const Json& model) {
   std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
   if (model.contains("edges") && model.at("edges").contains(item)) return true;

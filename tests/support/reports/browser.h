@@ -14,7 +14,7 @@ struct Visit {
 [[nodiscard]] Visit visit(const std::filesystem::path& page);
 
 /// Loads a page in an HTML frame of this width [px], because browser windows cannot be as narrow as
-/// a phone. All folded parts are open. The <html> element then has these attributes:
+/// a phone. All collapsible parts are open. The <html> element then has these attributes:
 ///   data-width, data-scroll-width   widths of the frame and of its content [px].
 ///   data-figures, data-empty        numbers of drawings with and without a size.
 ///   data-wide, data-wide-names      number and names of elements beyond the right side.

@@ -11,7 +11,7 @@ const std::set<std::string>& void_elements() {
   return names;
 }
 
-/// Returns the end of the tag that opens at `at`: the first > outside quotes.
+/// Returns the end of the tag that starts at the position `at`: the first > outside quotes.
 std::size_t tag_end(const std::string& text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {

@@ -5,8 +5,9 @@
 
 namespace trammel::testing {
 
-/// Checks that all elements of HTML or XML are closed in order. @returns an empty text or the fault
-/// @param html  void elements need no end; script and style contain plain text
+/// Checks that all elements of HTML or XML are closed in order.
+/// @returns an empty text or a description of the fault
+/// @param html  true: void elements need no end; script and style contain plain text
 [[nodiscard]] std::string markup_fault(const std::string& text, bool html);
 
 /// Counts the occurrences of `part` in `text`.

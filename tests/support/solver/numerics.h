@@ -22,7 +22,7 @@ auto richardson(const F& f, double h) {
   return ((16 * e2 - e1) / 15).eval();
 }
 
-/// Returns the order of convergence from the errors at a step and at half of it.
+/// Returns the order of convergence from the errors at a step and at half this step.
 inline double observed_order(double coarse, double fine) {
   return std::log2(coarse / fine);
 }

@@ -39,8 +39,8 @@ inline Pose random_pose(const ManipulatorDesign& design, std::mt19937_64& engine
 }
 
 /// Returns a pose with the platform on the centroid of the base at a random angle. By the threefold
-/// symmetry, the frequencies of modes occur in equal pairs. Modes whose shape itself has the
-/// threefold symmetry are not paired.
+/// symmetry, frequencies occur in equal pairs, except for modes whose shape has the threefold
+/// symmetry.
 inline Pose random_centered_pose(std::mt19937_64& engine) {
   return centered_pose(-0.6 + 1.2 * static_cast<double>(engine() >> 11) * 0x1p-53);
 }

@@ -79,8 +79,8 @@ inline RigidManipulator uneven_bodies() {
   return m;
 }
 
-/// Random poses, velocities and accelerations of the platform from a seed. Poses are near the
-/// middle of the workspace. Velocities are of the order of 1 m/s and 1 rad/s.
+/// Generator of random poses, velocities and accelerations of the platform from a seed. Poses are
+/// near the middle of the workspace. Velocities are of the order of 1 m/s and 1 rad/s.
 class RandomStates {
  public:
   explicit RandomStates(unsigned seed) : engine_(seed) {}
