@@ -8,6 +8,8 @@
 #include <fstream>
 #include <thread>
 
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
 #include "trammel_build.h"
 #include "trammel_commit.h"
 
@@ -52,6 +54,14 @@ Json build_and_machine_info() {
           {"processor", line_of("/proc/cpuinfo", "model name")},
           {"cores", std::max(1U, std::thread::hardware_concurrency())},
           {"system", line_of("/etc/os-release", "PRETTY_NAME")}};
+}
+
+std::string file_hash(const std::filesystem::path& file) {
+  try {
+    return content_hash(read_text(file));
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace trammel::harness

@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 /// Name of the file that contains the key of a report, and the sizes and paths of its files.
 constexpr const char* kFileList = "report-files.txt";
 
-/// Returns a text that depends on the program and on all results, but not on the date of the call.
+/// Returns a hash of the program and of all results, without the date of the call. For results in
+/// the store, the names of their files are part of the hash, which depend on the inputs.
 std::string key_of(const Results& results) {
-  auto json = to_json(results, false);
+  auto json = to_json(results, true);
   for (const char* key : {"date", "stored_runs"}) json["environment"].erase(key);
   using Handler = decltype(json)::error_handler_t;
   return harness::content_hash(json.dump(-1, ' ', false, Handler::replace) +
