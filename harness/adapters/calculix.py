@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Adapter for CalculiX (ccx 2.20). It writes a case as a deck, runs ccx in the working folder and reads the .dat file.
 
-Members of Euler-Bernoulli beams without springs become, in statics, one user element U1, which is exact at its nodes. U1 is
-unsuitable for other purposes:
+In statics, an Euler-Bernoulli member without springs becomes one user element U1, which is exact at its nodes. U1 is
+unsuitable for other members and analyses:
 - ccx supports U1 in statics only.
-- With shear strain, U1 deflects less than without.
+- U1 with shear strain deflects less than U1 without shear strain, which is wrong.
 - Springs on rotations of U1 have the wrong stiffness.
 
 Other members become a strip of eight-node plane-stress elements. These are CPS8R, except in buckling, where CPS8R results in
-twice the load and CPS8 is used. The strip is orthotropic. It has E along the member, no contraction, and the shear modulus of
-the case's beam theory. If the theory has no rotary inertia, the mass is in a thin core of the strip.
+twice the buckling load and CPS8 is used. The strip is orthotropic. It has E along the member, Poisson's ratio 0, and the shear
+modulus of the case's beam theory. If the theory has no rotary inertia, the mass is in a thin core of the strip.
 
 Plates become CPS3 and CPS6 elements whose material contracts only in the plane. Their mass matrix is consistent.
 Joints and rigid bodies become linear constraint equations. Motion in time is a superposition of modes.
@@ -18,7 +18,7 @@ Section forces and reactions follow from displacements by the slope-deflection e
 digits, from the restart file. Otherwise they have the seven digits that ccx prints.
 
 Two differences from beam theory remain. At an axial load N, the critical load is too low by the fraction (N / EA) (1 + E / G).
-A strip that is rigid in shear loses digits, more so if it is slender (1e-5 at a length of 130 times the depth).
+A strip that is rigid in shear has round-off errors that grow with slenderness (1e-5 at a length of 130 times the depth).
 """
 import math
 import os
@@ -29,11 +29,11 @@ from trammel_adapter import Cannot, main
 
 
 SHEAR_RIGID = (8, 300, 1e5)  # G / E for beams without shear strain: minimum, maximum under axial loads, maximum otherwise
-THIN, SLENDER = 3, 0.009  # factor by which inextensible strips are thinner, and depth / length up to which they are not
-CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # fraction of the depth, and beams, of a core with the mass in modes
+THIN, SLENDER = 3, 0.009  # thinning factor of inextensible strips, and largest depth / length without thinning
+CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # core that carries the mass in modes: fraction of the depth, beam theories with a core
 CORE_STIFFNESS = 1e-6  # stiffness of the core relative to the strip
 STIFF = 1e5  # factor of the axial stiffness of an inextensible beam element U1
-ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
+ALONG = {"CPS8R": 2, "CPS8": 4}  # number of elements of a strip for each element of the case, by element type
 DIGITS = 7  # significant digits that ccx prints
 MODES = 20  # number of modes for motion in time
 MOTION = {"displacements": ("displacement_x_m", "displacement_y_m", "rotation_rad"),
@@ -43,7 +43,7 @@ DOF = {"x": 0, "y": 1, "rotation": 2}
 
 
 def card(*cells):
-    """Returns a data line. ccx reads at most twenty characters of a number."""
+    """Returns a data line of the deck. ccx reads at most twenty characters of a number."""
     return ",".join(f"{cell:.12e}" if isinstance(cell, float) else str(cell) for cell in cells)
 
 
@@ -66,7 +66,7 @@ class Deck:
         self.lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", card(self.elements, *nodes)]
 
     def follower(self, motions):
-        """Returns a node whose first degrees of freedom follow the motions. ccx 2.20 fails for masses and springs on nodes
+        """Returns a node whose first degrees of freedom equal the motions (node, dof). ccx 2.20 fails for masses and springs on nodes
         that other nodes depend on."""
         node = self.node(*self.nodes[motions[0][0] - 1])
         for dof, motion in enumerate(motions, 1):
@@ -196,7 +196,7 @@ def nodal_loads(model):
     loads = {}
     for load in model.get("loads", {}).values():
         if "node" not in load:
-            raise Cannot("tractions on edges")
+            raise Cannot("tractions on edges are not supported")
         f = loads.setdefault(load["node"], [0.0, 0.0, 0.0])
         for i, value in enumerate([*load.get("force_N", [0, 0]), load.get("moment_N_m", 0)]):
             f[i] += value
@@ -214,7 +214,7 @@ def material(name, E, G, rho, nu=0.0, share=1.0, across=1.0):
 
     Out of the plane, ccx enforces equal contraction of adjacent elements, which stiffens them.
     share: factor of the stiffness in the plane.
-    across: additional factor through the depth, for a core that would otherwise press on the strip's middle.
+    across: additional stiffness factor through the depth, for a core that would otherwise press on the strip's middle.
     """
     return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E * share, E * share * across, E, nu, 0, 0, G * share, G), card(G),
             "*DENSITY", card(max(float(rho), 1e-9))]
@@ -231,10 +231,10 @@ def refuse(model, keys):
 
 
 class Frame:
-    """Nodes, joints, masses, supports and loads of a model. motions[name] holds the motions x, y and rotation of a node.
+    """Nodes, joints, masses, supports and loads of a model. motions[name] holds the degrees of freedom (node, dof) for x, y and rotation.
 
     strips: element type of the members, or None for U1.
-    loaded: true if axial forces matter. Inextensible members then stretch: a constraint would carry force without stress.
+    loaded: true if axial forces change the stiffness. Inextensible members then stretch: a constraint would carry force without stress.
     """
 
     def __init__(self, case, strips, loaded=False, large=False, core=False):
@@ -247,7 +247,7 @@ class Frame:
         self.motions = {name: self.point(*p, name in welded) for name, p in model["nodes"].items()}
         for node, taken in model.get("supports", {}).items():
             if node not in self.motions:
-                raise Cannot("supports of edges")
+                raise Cannot("supports of edges are not supported")
             self.deck.supported |= {self.motions[node][DOF[t]] for t in taken}
         for body in model.get("rigid_bodies", {}).values():
             place = model["nodes"][body["reference"]]
@@ -285,7 +285,7 @@ class Frame:
         """Adds the triangles of a plate. ccx integrates the mass of three-node triangles at their centroid, so that they have no
         inertia about it. Three quarters of this mass plus a twelfth of it in each corner equal the consistent mass."""
         if "triangles" not in plate:
-            raise Cannot("plates without a mesh")
+            raise Cannot("plates without triangles are not supported")
         m, set_name = self.model["materials"][plate["material"]], f"P{self.deck.elements}"
         E, nu, rho = float(m["E_Pa"]), float(m["nu"]), float(m["rho_kg_m3"])
         share = 1.0
@@ -339,7 +339,7 @@ class Frame:
     def strip(self, m):
         deck, name = self.deck, f"E{len(self.deck.lines)}"
         if not m.I:
-            raise Cannot("modes and buckling with members that do not bend")
+            raise Cannot("modes and buckling of members without bending stiffness are not supported")
         h = math.sqrt(12 * m.I / m.A)
         thinner = 1.0  # thinning keeps E I and mass, reduces rotary inertia; E A is irrelevant at constant length
         if m.inextensible and self.large:
@@ -350,10 +350,10 @@ class Frame:
         pieces = [o for o in self.members if o.name.split(".")[0] == m.name.split(".")[0]]  # pieces of a tapered member
         slender = h / sum(piece.L for piece in pieces)
         wanted = max(4 if len(pieces) < 8 else 1, m.elements * (1 if self.large else ALONG[self.strips]))
-        n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter elements lose digits
+        n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter elements have larger round-off errors
         rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1 + (not self.loaded)])
         if m.inextensible and thinner == 1 and not self.loaded:
-            rigidity = 1  # with large G, the equations of constant length lose digits
+            rigidity = 1  # with large G, the constraints of constant length cause round-off errors
         x0, y0 = self.model["nodes"][m.nodes[0]]
         rows = []
         for i in range(n + 1):
@@ -396,11 +396,11 @@ class Frame:
         return [nodes[0], *row[1:-1], nodes[1]]
 
     def turning_end(self, m, i):
-        """Checks an end that rotates. In large displacement, only its middle is tied, as ccx equations are linear."""
+        """Rejects moments at a rotating end. In large displacement, only the middle of the end is tied, as ccx constraints are linear."""
         node = m.nodes[i]
         others = [o for o in self.members if o is not m and node in o.nodes]
         if m.ends[i] != "hinged" and (others or nodal_loads(self.model).get(node, [0, 0, 0])[2]):
-            raise Cannot("rotating welded joints and moments in large displacement")
+            raise Cannot("rotating welded joints, and moments on rotating ends, are not supported in large displacement")
 
     def keep_length(self, m, middle):
         """Constrains all points of a member to equal axial displacement."""
@@ -419,7 +419,7 @@ class Frame:
                     for end, sign in zip(self.ends[m.name], (1, -1)):
                         forces += [(end[i], m.load[i] * m.L / 2), (end[2], sign * turn)]
                     continue
-                for k, row in enumerate(m.rows):  # Simpson's rule; on the middle node, or on the two nodes next to it
+                for k, row in enumerate(m.rows):  # weights of Simpson's rule, for the middle node or the two nodes next to it
                     share = (1 if k in (0, len(m.rows) - 1) else 4 if k % 2 else 2) / (3 * (len(m.rows) - 1))
                     nodes = row[len(row) // 2 - 1:len(row) // 2 + 1] if len(row) % 2 == 0 else [middle(row)]
                     forces += [((node, i + 1), m.load[i] * m.L * share / len(nodes)) for node in nodes]
@@ -455,7 +455,7 @@ def statics(case, options):
 
 
 def section_forces(frame, value):
-    """Returns forces, moments and stresses at members' ends, and reactions. value(motion) is a displacement of ccx."""
+    """Returns forces, moments and stresses at members' ends, and reactions. value(motion) is the displacement computed by ccx."""
     model, q = frame.model, {}
     supports = model.get("supports", {})
     reaction = {n: [-f for f in nodal_loads(model).get(n, [0, 0, 0])] for n in supports}
@@ -543,7 +543,7 @@ def modes(case, options):
 
 def buckling(case, options):
     if case.model.get("plates"):
-        raise Cannot("buckling of plates")
+        raise Cannot("buckling of plates is not supported")
     frame = Frame(case, "CPS8", loaded=True)
     count = options.get("count", 3)
     out = frame.deck.run(["*STEP", "*BUCKLE", str(count), "*CLOAD", *frame.loads(), "*END STEP"])
@@ -560,14 +560,14 @@ def transient(case, options):
     integrated by the trapezoidal rule."""
     refuse(options, ["rotating_frame", "error_control"])
     if options.get("initial_state", "at-rest") != "at-rest" or options.get("damping", {}).keys() - {"rayleigh"}:
-        raise Cannot("this initial state or damping of a motion in time")
+        raise Cannot("this initial state or damping of a motion in time is not supported")
     frame, end = Frame(case, "CPS8R", core=True), options["duration_s"]
     samples = options.get("samples") or round(end / options["step_s"])
     inner = max(1, math.ceil(end / samples / options["step_s"] - 1e-6))
     history = options.get("load_history", {"time_s": [0], "factor": [1]})
     modal = "members" in case.model
     if not modal and len(set(history["time_s"])) < len(history["time_s"]):
-        raise Cannot("jumps of a load on a mass on a spring")
+        raise Cannot("jumps of a load on a mass on a spring are not supported")
     corners = [(t + 1e-9 * end * (i and t == history["time_s"][i - 1]), f) for i, (t, f) in enumerate(zip(*history.values()))]
     frame.deck.lines += ["*AMPLITUDE,NAME=H", *(card(float(t), float(f)) for t, f in corners + [(2 * end, corners[-1][1])])]
     wanted = {f"{head}:{name}": (title, motion[k]) for name, motion in frame.motions.items() for title, heads in MOTION.items()
@@ -575,11 +575,11 @@ def transient(case, options):
     wanted = {name: where for name, where in wanted.items() if any(name in asked for asked in case.asked)}
     nodes = sorted({str(motion[0]) for _, motion in wanted.values()})
     if not nodes:
-        raise Cannot("the requested quantities of a motion in time")
+        raise Cannot("the requested quantities of a motion in time are not supported")
     rayleigh = options.get("damping", {}).get("rayleigh", {})
     damped = ["*MODAL DAMPING,RAYLEIGH", card(1, MODES, *(float(rayleigh.get(key, 0)) for key in ("mass_per_s", "stiffness_s")))]
     if rayleigh and not modal or any(any(m.load) for m in frame.members):
-        raise Cannot("a damped mass on a spring, or moving members with distributed loads, of which ccx 2.20 applies only a part")
+        raise Cannot("damped masses on springs, and distributed loads on moving members (ccx 2.20 applies only a part), are not supported")
     step = ["*MODAL DYNAMIC"] if modal else ["*DYNAMIC,DIRECT,ALPHA=0."]
     out = frame.deck.run([
         *(["*STEP", "*FREQUENCY,STORAGE=YES", str(MODES), "*END STEP"] if modal else []), f"*STEP,INC={samples * inner + 9}", *step,
@@ -611,7 +611,7 @@ ANALYSES = {"statics": statics, "modes": modes, "buckling": buckling, "large-sta
 
 def solve(case):
     if case.kind not in ANALYSES:
-        raise Cannot(f"analysis {case.kind}")
+        raise Cannot(f"analysis {case.kind} is not supported")
     refuse(case.model, ["sliders", "axial_springs", "follower_loads"])
     if case.model.get("plates"):
         refuse(case.model, ["gravity_m_s2"])

@@ -24,7 +24,7 @@ def sparse(matrix):
 
 
 class Membrane:
-    """K and M over the dofs x, y of each node of the case, and the data for stresses."""
+    """Stiffness K and mass M over the dofs x, y of each node of the case, and the data for stresses."""
 
     def __init__(self, case):
         self.model = case.model
@@ -34,12 +34,12 @@ class Membrane:
         self.plates = [self.plate(p) for p in self.model["plates"].values()]
         for mass in self.model.get("point_masses", {}).values():
             if mass.get("inertia_kg_m2") or any(mass.get("offset_m", [])):
-                raise Cannot("masses with inertia or an offset")
+                raise Cannot("point masses with inertia or an offset are not supported")
             at = [2 * self.index[mass["node"]] + k for k in (0, 1)]
             self.M += scipy.sparse.csc_matrix(([mass["mass_kg"]] * 2, (at, at)), (size, size))
         taken = {(n, t) for n, directions in self.model.get("supports", {}).items() for t in directions}
         if any(n not in self.index or t == "rotation" for n, t in taken):
-            raise Cannot("supports other than of x and y at nodes")
+            raise Cannot("only supports of nodes along x and y are supported")
         held = {2 * self.index[n] + "xy".index(t) for n, t in taken}
         used = {2 * self.index[n] + k for p in self.model["plates"].values() for t in p["triangles"] for n in t for k in (0, 1)}
         self.free = numpy.array(sorted(used - held))
@@ -48,7 +48,7 @@ class Membrane:
         triangles = plate.get("triangles") or []
         sizes = {len(t) for t in triangles}
         if len(sizes) != 1:
-            raise Cannot("plates without triangles, or with different types of triangles")
+            raise Cannot("plates without triangles, or with two types of triangles, are not supported")
         n = sizes.pop()
         degree = 1 if n == 3 else 2
         material = self.model["materials"][plate["material"]]
@@ -81,7 +81,7 @@ class Membrane:
         f = numpy.zeros(2 * len(self.index))
         for load in self.model.get("loads", {}).values():
             if "node" not in load or load.get("moment_N_m"):
-                raise Cannot("loads other than forces on nodes")
+                raise Cannot("only forces on nodes are supported as loads")
             f[2 * self.index[load["node"]]:][:2] += load.get("force_N", [0, 0])
         u = numpy.zeros(len(f))
         u[self.free] = scipy.sparse.linalg.spsolve(self.K[self.free][:, self.free].tocsc(), f[self.free])
@@ -132,7 +132,7 @@ def modes(membrane, count):
 def solve(case):
     case.require(kinds=("statics", "modes"), parts=PARTS, options=("count", "reduction_basis"))
     if "plates" not in case.model:
-        raise Cannot("no plates")
+        raise Cannot("models without plates are not supported")
     membrane = Membrane(case)
     if case.kind == "modes" and "plates" in case.model and all(len(p[3][0]) == 3 for p in membrane.plates):
         case.element_order = 2

@@ -16,12 +16,12 @@ def solve(case):
     options = case.options
     for key in options:
         if case.kind != "grnn" or key not in ("samples", "queries", "sigma", "spread", "scaling"):
-            raise Cannot(f"{case.kind} with {key}")
+            raise Cannot(f"{case.kind} with the option {key} is not supported")
     inputs, outputs, queries = (numpy.array(rows, dtype=float) for rows in
                                 (options["samples"]["inputs"], options["samples"]["outputs"], options["queries"]))
     sigma = options["sigma"] if "sigma" in options else options["spread"] / math.sqrt(2) / 0.8326
     if not 1e-3 < sigma < 1e3:
-        raise Cannot("sigmas at which exp(-D^2 / 2 sigma^2) leaves the range of doubles")
+        raise Cannot("sigma outside 1e-3 ... 1e3, where exp(-D^2 / 2 sigma^2) may underflow, is not supported")
     scaling = options.get("scaling", "none")
     if scaling != "none":
         scale = inputs.std(axis=0) if scaling == "deviation" else numpy.ptp(inputs, axis=0)
@@ -31,7 +31,7 @@ def solve(case):
         found = [KernelReg(column, inputs, "c" * inputs.shape[1], reg_type="lc", bw=[sigma] * inputs.shape[1]).fit(queries)[0]
                  for column in outputs.T]
     if not numpy.isfinite(found).all():
-        raise Cannot("a query so far from all samples that every weight underflows")
+        raise Cannot("a query is so far from all samples that every weight underflows")
     return {f"prediction:{k + 1}": ("1", list(values)) for k, values in enumerate(found) if f"prediction:{k + 1}" in case.asked}
 
 

@@ -23,7 +23,7 @@ KEYS_OF_MEMBERS = {"nodes", "section", "beam", "elements", "ends", "axial", "mas
 
 
 class Cannot(Exception):
-    """Raised if the code does not support a case. This is not a failure. The text is the reason."""
+    """Raised if the code does not support a case. This is not a failure. Its text is the reason."""
 
 
 @dataclass

@@ -26,7 +26,7 @@ FAULTS = {
 }
 FAULT = sys.argv[sys.argv.index("--fault") + 1] if "--fault" in sys.argv else None
 if FAULT is not None and FAULT not in FAULTS:
-    sys.exit("expected one of the faults " + ", ".join(FAULTS))
+    sys.exit("--fault: expected one of " + ", ".join(FAULTS))
 STIFF = 1e12  # factor of the axial stiffness of an inextensible member
 GAUSS = [(0.069431844202973712, 0.173927422568726929), (0.330009478207571868, 0.326072577431273071),
          (0.669990521792428132, 0.326072577431273071), (0.930568155797026288, 0.173927422568726929)]
@@ -90,7 +90,7 @@ class Frame:
             (xa, ya), (xb, yb) = at[m.nodes[0]], at[m.nodes[1]]
             length = math.hypot(xb - xa, yb - ya)
             if m.inextensible and xa != xb and ya != yb:
-                raise Cannot("inextensible members that are not along a world axis")
+                raise Cannot("inextensible members must be along a world axis")
             way = [self.names[m.nodes[0]]] + nodes + [self.names[m.nodes[1]]]
             for e in range(n):
                 dofs = way[e] + way[e + 1]
@@ -138,7 +138,7 @@ class Frame:
                     K[i][j] = K[i].get(j, 0.0) + sign * k
         for point in self.case.model.get("point_masses", {}).values():
             if any(point.get("offset_m", ())):
-                raise Cannot("point masses with an offset")
+                raise Cannot("point masses with an offset are not supported")
             for dof, value in zip(self.names[point["node"]], [point["mass_kg"]] * 2
                                   + [point.get("inertia_kg_m2", 0.0)]):
                 M[dof][dof] = M[dof].get(dof, 0.0) + value
@@ -243,7 +243,7 @@ def statics(case):
 
 
 def modes(case):
-    """Computes frequencies by bisection: K - shift M has as many negative pivots as eigenvalues below the shift."""
+    """Computes natural frequencies by bisection: K - shift M has as many negative pivots as eigenvalues below the shift."""
     frame = Frame(case, cut=True)
     K, M, free = frame.matrices()
     counts = {0.0: 0}
@@ -253,7 +253,7 @@ def modes(case):
     while below(top) < count:
         top *= 4
         if top > 1e30:
-            raise Cannot("fewer than %d modes" % count)
+            raise Cannot("the model has fewer than %d modes" % count)
     found = []
     for mode in range(count):
         low = max(s for s, n in counts.items() if n <= mode)

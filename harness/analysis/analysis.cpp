@@ -29,8 +29,8 @@ class RoundingScope {
   int before_;
 };
 
-StepResult analyze_scene(const AnalysisKind& kind, const JsonView& analysis,
-                         const CaseModel& case_model, bool draw, Recorder& record) {
+StepResult run_case_model_analysis(const AnalysisKind& kind, const JsonView& analysis,
+                                   const CaseModel& case_model, bool draw, Recorder& record) {
   if (case_model.path && !kind.has_own_times)
     for (const solver::TrajectoryPoint& point : case_model.motion) {
       record.add("time_s", point.time);
@@ -66,8 +66,8 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records the dimensionless numbers and the changes of the results by which effects were selected
-/// automatically. Checks can refer to these quantities.
+/// Records, for each automatically selected physical effect, its dimensionless number and the
+/// change of the results without it. Checks of a case can refer to these quantities.
 void record_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {
@@ -95,7 +95,7 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     if (before * now < 0) {
       add_warning(warnings,
                   {"the time of the first point after a parallel singularity", point.time, " s",
-                   "rigid links need infinite torques there; hinged links lose stiffness"});
+                   "rigid links need infinite torques at singular poses; hinged links soften"});
       return;
     }
     if (now != 0) before = now;
@@ -135,15 +135,15 @@ AnalysisResult analyze(const Document& document, const References& references,
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
     record_evidence(choice, record);
-    AnalysisResult result =
-        result_of(kind, analyze_scene(kind, place, case_model, options.drawing, record), record);
+    AnalysisResult result = result_of(
+        kind, run_case_model_analysis(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);
     if (choice.is_beyond_linear_theory())
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
-           "more than the tolerance; fixed steps and driven actuators would allow this effect"});
+           "above the tolerance; fixed time steps and driven actuators would allow this effect"});
     return result;
   });
 }

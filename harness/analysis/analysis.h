@@ -5,17 +5,18 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/statics_modes/step_result.h"
 
-/// Runs one computation: computes the quantities that the analysis of a case defines.
+/// Runs the analysis of one case, and returns the computed quantities.
 namespace trammel::harness {
 
 /// Optional outputs of an analysis in addition to the computed quantities.
 struct AnalysisOptions {
-  bool drawing = true;  ///< compute the drawing for the report
+  bool drawing = true;  ///< true: also compute the drawing of the model
 };
 
 struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::vector<results::EffectRow> effects;  ///< effects, with reasons
+  /// Physical effects, with the reasons for their selection.
+  std::vector<results::EffectRow> effects;
 };
 
 /// Runs the analysis of a case.

@@ -15,19 +15,19 @@ namespace trammel::harness {
 namespace {
 
 /// Recorded quantities by name: the number of computations with each outcome, such as "solved", and
-/// the largest difference of results.
+/// the largest difference between results with different options.
 using OptionCounts = std::map<std::string, double>;
 
-OptionCounts no_outcomes() {
+OptionCounts zero_option_counts() {
   return {{"attempted", 0}, {"solved", 0},     {"singular", 0},   {"not_converged", 0},
           {"refused", 0},   {"not_finite", 0}, {"unexplained", 0}};
 }
 
 /// Name of a quantity: the largest difference between results that must not depend on the options,
-/// relative to the sum of their round-off bounds.
+/// relative to the sum of the round-off bounds of both results.
 constexpr const char* kDifference = "result_difference_over_roundoff";
 
-void disagree(double by, OptionCounts& counts) {
+void record_difference(double by, OptionCounts& counts) {
   double& largest = counts[kDifference];
   largest = std::max(largest, by);
 }
@@ -42,7 +42,7 @@ struct Options {
 
 /// Returns all combinations of the option values under the key "vary". Each combination also
 /// contains the options under the key "set".
-std::vector<Json> combinations_of(const JsonView& place) {
+std::vector<Json> option_combinations(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
   for (const auto& [option, values] : place["vary"].entries()) {
@@ -61,14 +61,14 @@ Options options_of(const JsonView& place, const std::string& kind) {
   Options options{{Json::object()}, false, {}};
   const auto own = place["analyses"].find(kind);
   if (!own) return options;
-  options.combinations = combinations_of(*own);
+  options.combinations = option_combinations(*own);
   options.must_agree = own->get("same_results", false);
   options.required_terms = own->get("reason_contains", std::vector<std::string>{});
   return options;
 }
 
-/// Returns the largest difference of two results, relative to the sum of their round-off bounds.
-/// Quantities without a round-off bound are skipped.
+/// Returns the largest difference of a quantity between two results, relative to the sum of its two
+/// round-off bounds. Quantities without a round-off bound are skipped.
 double max_relative_difference(const Quantities& a, const Quantities& b) {
   double largest = 0;
   for (const auto& [name, added] : a) {
@@ -147,9 +147,9 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       } else if (result.outcome.status != first->outcome.status) {
         // Different outcomes count as the largest finite difference, because recorded numbers must
         // be finite.
-        disagree(std::numeric_limits<double>::max(), counts);
+        record_difference(std::numeric_limits<double>::max(), counts);
       } else {
-        disagree(max_relative_difference(first->quantities, result.quantities), counts);
+        record_difference(max_relative_difference(first->quantities, result.quantities), counts);
       }
     } catch (const InputError&) {
       ++counts["refused"];  // an invalid combination ends with an error message
@@ -181,10 +181,10 @@ StepResult analyze_options(const Document& document, const References& reference
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
   const Catalogue catalogue;
-  OptionCounts all = no_outcomes();
+  OptionCounts all = zero_option_counts();
   for (const auto& [name, choice] : place["cases"].entries()) {
     const Case tried = load_case(catalogue.find_base_case(name, here), catalogue);
-    OptionCounts own = no_outcomes();
+    OptionCounts own = zero_option_counts();
     std::set<std::string> seen;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);
@@ -196,7 +196,7 @@ StepResult analyze_options(const Document& document, const References& reference
     for (const auto& [quantity, number] : own) {
       record.add(quantity, name, number);
       if (quantity == kDifference) {
-        disagree(number, all);
+        record_difference(number, all);
       } else {
         all[quantity] += number;
       }

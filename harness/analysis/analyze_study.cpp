@@ -26,16 +26,17 @@ double status_code(solver::Status status) {
   return status == solver::Status::solved ? 0 : status == solver::Status::singular ? 1 : 2;
 }
 
-/// Number recorded by a study, with its relative round-off error, which is -1 if unknown.
+/// Number that a parameter study records, and its relative round-off error (-1 if unknown).
 struct KeptQuantity {
   double value = kNaN, roundoff = -1;
 };
 
-/// Returns the value that a study records for a quantity of the inner analysis.
+/// Returns the value that a parameter study records for a quantity of the repeated (inner)
+/// analysis.
 /// @throws InputError  if the quantity does not exist, or has several numbers and neither 'index'
 /// nor 'statistic' selects a number.
-KeptQuantity number_of(const Quantities& quantities, const std::string& name,
-                       const JsonView& keep) {
+KeptQuantity select_kept_quantity(const Quantities& quantities, const std::string& name,
+                                  const JsonView& keep) {
   const auto found = quantities.find(name);
   if (found == quantities.end()) {
     std::string some;
@@ -95,7 +96,8 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
 }
 
-/// Returns a case for each point of the model's trajectory, with the time as the parameter.
+/// Returns a case for each point of the platform's trajectory. The parameter of the study is the
+/// time.
 std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.path) throw study["trajectory"].error("this key requires /model/trajectory");
@@ -141,7 +143,7 @@ StepResult analyze_study(const Document& document, const References& references,
     record.add("status", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {
       const auto& [name, place] = keep[k];
-      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place)
+      kept[k].push_back(found.outcome.solved() ? select_kept_quantity(found.quantities, name, place)
                                                : KeptQuantity{});
     }
     result.counters += found.counters;

@@ -11,7 +11,7 @@ AnalyseCase analyze_study;
 
 /// Runs other cases with every combination of some options of their analyses. Records the number of
 /// combinations with each outcome, with a non-finite number, or with a failure whose message lacks
-/// the reason. Also records the largest difference between results that must not depend on the
+/// required words. Also records the largest difference between results that must not depend on the
 /// options.
 AnalyseCase analyze_options;
 

@@ -12,7 +12,7 @@ namespace {
 using solver::Effect;
 using solver::Effects;
 
-const EffectRules* effects_of(const Document& document) {
+const EffectRules* find_effect_rules(const Document& document) {
   return find_analysis(analysis_kind(document)).effects;
 }
 
@@ -20,8 +20,8 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Returns the value of the key by which an analysis switches an effect on or off; empty if the key
-/// is absent.
+/// Returns the value of the analysis key that switches a physical effect on or off; empty if the
+/// key is absent.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
   std::optional<JsonView> place = analysis_place(document);
   for (const char* key : effect_key.place)
@@ -29,13 +29,13 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-/// Returns the effects of a case that does not have the key "effects". The keys of the model and of
-/// the analysis define these effects.
+/// Returns the physical effects of a case without the key "effects". Other keys of the model and of
+/// the analysis switch these effects on or off.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))
     stated = stated.without(Effect::large_displacement);
-  for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
     stated = scope.remove_with_dependents(stated, effect_key.effect);
@@ -69,7 +69,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
 }
 
 /// Returns the required effects and the effects in the list `names`, which satisfies the schema.
-Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
+Effects read_effects(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
     const auto effect = solver::find_effect(place.get<std::string>());
@@ -109,7 +109,7 @@ std::string describe_decision(Effect effect, const EffectScope& scope,
       return "required by " + std::string(solver::name_of(dependent));
   if (!is_chosen) return "removed together with an effect that it depends on";
   return is_expensive(effect) ? "kept: measuring the effect costs more time than removing it saves"
-                              : "kept: the effect only changes coefficients and costs no time";
+                              : "kept: the effect changes only matrix entries and costs no time";
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
@@ -131,7 +131,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     row.cumulative_change = evidence.cumulative;
     row.why = selection.outcome.solved()
                   ? describe_decision(effect, scope, selection, tolerance)
-                  : "kept: the coarse model has no solution (" + selection.outcome.reason + ")";
+                  : "kept: the coarse mesh has no solution (" + selection.outcome.reason + ")";
   }
   if (selection.beyond_tier)
     choice.rows[static_cast<std::size_t>(Effect::large_displacement)].why +=
@@ -142,12 +142,12 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
 }  // namespace
 
 bool supports_effects(const Document& document) {
-  return effects_of(document) != nullptr;
+  return find_effect_rules(document) != nullptr;
 }
 
 EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
   const solver::Model model = model_at_path_start(case_model);
-  EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
+  EffectScope scope = find_effect_rules(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(Effect::platform_flexibility);
     // Plates that do not belong to a platform always remain flexible.
@@ -165,7 +165,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
                              analyses_with_effects());
     return {};
   }
-  const EffectRules& rules = *effects_of(document);
+  const EffectRules& rules = *find_effect_rules(document);
   const EffectScope scope = effect_scope(document, case_model);
   EffectChoice choice;
   if (!requested) {
@@ -173,7 +173,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
     choice.rows = effect_rows(scope, choice.chosen, rules, "specified by model and analysis");
     return choice;
   }
-  for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (!specified) continue;
     throw specified->error("'effects' excludes this key, which specifies the same effect: " +
@@ -182,7 +182,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   if (requested->json().is_object())
     return choose_automatically(document, case_model, scope,
                                 (*requested)["auto"].number("tolerance"));
-  choice.chosen = read_names(*requested, scope, rules);
+  choice.chosen = read_effects(*requested, scope, rules);
   choice.rows = effect_rows(scope, choice.chosen, rules, "requested");
   return choice;
 }
@@ -192,7 +192,7 @@ Document with_effects(const Document& document, Effects effects) {
   Json names = Json::array();
   for (const Effect effect : effects.list()) names.push_back(std::string(solver::name_of(effect)));
   Json patch = {{"effects", names}};
-  for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
     std::string pointer = "/analysis/" + analysis_kind(document);
     const bool below =
         effect_key.place.size() > 1;  // a nested key must not create its parent object

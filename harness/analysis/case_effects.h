@@ -14,10 +14,12 @@ namespace trammel::harness {
 /// Physical effects, such as rotary inertia, with which a case is computed.
 struct EffectChoice {
   solver::Effects chosen = solver::Effects::all();
-  std::optional<double> tolerance;  ///< tolerance of an automatic selection; else empty
-  /// State of every effect; empty if the analysis has no effects.
+  /// Tolerance of the automatic selection; empty if effects are not selected automatically.
+  std::optional<double> tolerance;
+  /// One row per physical effect, with its state (applicable, active); empty if the analysis has no
+  /// selectable effects.
   std::vector<results::EffectRow> rows;
-  std::optional<EffectSelection> automatic;  ///< result of the automatic selection
+  std::optional<EffectSelection> automatic;  ///< result of the automatic selection of effects
 
   /// @returns true if the analysis cannot compute large displacement, although large displacement
   /// would change the results by more than the tolerance

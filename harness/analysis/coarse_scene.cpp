@@ -12,7 +12,7 @@ namespace {
 using solver::Effects;
 
 /// Returns pointers to the element counts of all members and links.
-std::vector<solver::Index*> element_counts(CaseModel& scene) {
+std::vector<solver::Index*> element_count_pointers(CaseModel& scene) {
   std::vector<solver::Index*> counts;
   for (solver::Member& member : scene.structure.members) counts.push_back(&member.elements);
   if (!scene.manipulator) return counts;
@@ -25,7 +25,7 @@ std::vector<solver::Index*> element_counts(CaseModel& scene) {
 
 CaseModel coarsen_scene(CaseModel scene, solver::Index elements) {
   scene.estimates_large_displacement = true;
-  for (solver::Index* count : element_counts(scene)) *count = std::min(*count, elements);
+  for (solver::Index* count : element_count_pointers(scene)) *count = std::min(*count, elements);
   if (!scene.manipulator || scene.manipulator->platform.pin_radius > 0) return scene;
   scene.manipulator->platform.refinements = 0;
   scene.manipulator->platform.six_nodes = false;

@@ -14,8 +14,8 @@
 /// factorizations and element matrices.
 namespace trammel::harness {
 
-/// Returns the scene on a coarse mesh: at most `elements` elements per member, and three triangles
-/// in a platform.
+/// Returns the model of a case (scene) on a coarse mesh: at most `elements` elements per member,
+/// and three triangles in a platform.
 [[nodiscard]] CaseModel coarsen_scene(CaseModel scene, solver::Index elements);
 
 /// Returns the number of unknowns of a model before constraints.
@@ -27,8 +27,8 @@ namespace trammel::harness {
 /// models of the tests.
 [[nodiscard]] double estimated_work(const solver::Counters& counters, double unknowns);
 
-/// Model of a case on a coarse mesh. Caches the results for each set of effects and each step of
-/// the path.
+/// Model of a case on a coarse mesh. Caches the results for each set of effects and each point of
+/// the case's path.
 class CoarseScene {
  public:
   CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
@@ -39,18 +39,19 @@ class CoarseScene {
         model_(model_at_path_start(scene_)),
         size_(typical_scales(model_)) {}
 
-  /// Returns the largest relative change of the results at `steps` of the path if `all_effects` are
-  /// replaced by `effects`. Returns infinity if a model has no solution at one of the steps.
+  /// Returns the largest relative change of the results at the points `steps` of the path if
+  /// `all_effects` are replaced by `effects`. Returns infinity if a model has no solution at one of
+  /// these points.
   [[nodiscard]] double max_result_change(solver::Effects all_effects, solver::Effects effects,
                                          const std::set<std::size_t>& steps);
-  /// Returns the results at `steps` of the path; empty if the model has no solution at one of the
-  /// steps.
+  /// Returns the results at the points `steps` of the path; empty if the model has no solution at
+  /// one of them.
   [[nodiscard]] std::optional<Quantities> results_at_steps(solver::Effects effects,
                                                            const std::set<std::size_t>& steps);
 
   [[nodiscard]] const ModelScales& model_scales() const { return size_; }
   [[nodiscard]] const solver::Model& model() const { return model_; }
-  solver::Outcome outcome;  ///< outcome of the last computation without solution
+  solver::Outcome outcome;  ///< outcome of the latest computation that had no solution
   solver::Counters counters;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 /// Returns the y component of the vector whose x component has the name `name`; null for other
 /// quantities.
-const Quantity* second_component(const Quantities& all, const std::string& name) {
+const Quantity* find_y_component(const Quantities& all, const std::string& name) {
   const std::size_t place = name.find("_x_");
   if (place == std::string::npos) return nullptr;
   const auto found = all.find(std::string(name).replace(place, 3, "_y_"));
@@ -23,7 +23,7 @@ const Quantity* second_component(const Quantities& all, const std::string& name)
 /// magnitudes of the vector.
 std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
   std::vector<double> size = all.at(name).values;
-  const Quantity* second = second_component(all, name);
+  const Quantity* second = find_y_component(all, name);
   for (std::size_t i = 0; i < size.size(); ++i) {
     const bool paired = second && i < second->values.size();
     size[i] = std::hypot(size[i], paired ? second->values[i] : 0);
@@ -60,10 +60,10 @@ std::string quantity_group(const std::string& quantity) {
 }
 
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
-  // Lower limit of the scale of a group, relative to the magnitude that the other groups imply,
-  // such as force times length for moments. Without the limit, round-off errors of a group of zeros
-  // would count as large changes. Round-off errors are about 1e-11 after thousands of steps. Common
-  // tolerances are much larger than 1e-7.
+  // Lower limit of the scale of a group of quantities, relative to the magnitude that the other
+  // groups imply, such as force times length for moments. Without the limit, round-off errors of a
+  // group whose values are all zero would count as large changes. Round-off errors are about 1e-11
+  // after thousands of steps. Common tolerances are much larger than 1e-7.
   constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
@@ -153,8 +153,8 @@ Changes changes_between(const Quantities& full, const Quantities& other, const M
       return kind == "frequency" ? std::abs(quantity.values[i]) : scale;
     };
     LargestDifference change = largest_difference(quantity.values, found->second.values, by);
-    const Quantity* second = second_component(full, name);
-    const Quantity* other_second = second_component(other, name);
+    const Quantity* second = find_y_component(full, name);
+    const Quantity* other_second = find_y_component(other, name);
     const bool is_vector = second && other_second &&
                            quantity.values.size() == found->second.values.size() &&
                            second->values.size() == quantity.values.size() &&

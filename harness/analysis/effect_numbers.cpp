@@ -27,7 +27,7 @@ double highest_first_frequency(const solver::Model& model) {
 }
 
 /// Returns the largest number of bending half waves in a member at an angular frequency [rad/s].
-double half_waves_at(const solver::Model& model, double omega) {
+double max_half_wave_count(const solver::Model& model, double omega) {
   double most = 1;
   for (const solver::Member& member : model.members) {
     const solver::Section& section = member.section;
@@ -51,16 +51,16 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
-    // Near a resonance, the response changes much more than the stiffness or mass that causes the
-    // change. Only damping limits this amplification. The sampled frequencies rarely contain the
-    // peak. The assumed amplification is between kLeast and kMost, which cover the random models of
-    // the tests.
+    // Near a resonance, the relative change of the response is much larger than that of the
+    // stiffness or mass that causes it. Only damping limits this amplification. The sampled
+    // frequencies rarely contain the resonance peak. The assumed amplification is between kLeast
+    // and kMost. These limits cover the random models of the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
     const auto damping = analysis.find("damping");
     const auto rayleigh = damping ? damping->find("rayleigh") : std::nullopt;
     const double stiffness = rayleigh ? rayleigh->get("stiffness_s", 0.0) : 0;
-    scale.half_waves = half_waves_at(model, omega);
+    scale.half_waves = max_half_wave_count(model, omega);
     scale.phase = stiffness > 0 ? std::clamp(1 / (stiffness * omega), kLeast, kMost) : kMost;
     scale.platform = 10;
   } else if (analysis_name == "transient" || analysis_name == "large-motion") {
@@ -72,8 +72,9 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
 }
 
 EffectNumbers dimensionless_numbers(const solver::Model& model, const ResponseScale& scale) {
-  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. In
-  /// nearly all random models of the tests, the actual ratios are smaller.
+  /// Assumed ratios of the change of the results to the dimensionless numbers of platform
+  /// flexibility and joint compliance. In nearly all random models of the tests, the true ratios
+  /// are smaller.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
   /// Ratio of the relative change of a frequency to the dimensionless number of geometric
   /// stiffening. A cantilever buckles at a quarter of pi^2 E I / L^2, and a frequency changes by

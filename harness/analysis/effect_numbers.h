@@ -16,7 +16,7 @@ struct ResponseScale {
   /// Ratio of the relative change of the results to that of a stiffness or mass. In a transient
   /// vibration, this ratio is half of the phase angle [rad].
   double phase = 1;
-  double platform = 1;         ///< ratio as `phase`, for the stiffness of the platform
+  double platform = 1;         ///< ratio as `phase`, for a change of the platform's stiffness
   bool loads_stiffen = false;  ///< true if the axial forces of loads change the stiffness
 };
 

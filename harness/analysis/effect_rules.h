@@ -39,7 +39,8 @@ struct EffectScope {
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
   EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
-  std::size_t column;  ///< column of the analysis in the table of reasons for absent effects
+  /// Column of the analysis in the table of reasons why effects are not applicable.
+  std::size_t column;
 
   /// Returns the reason why an effect is not applicable.
   [[nodiscard]] const char* reason_not_applicable(solver::Effect effect) const;

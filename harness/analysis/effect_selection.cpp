@@ -25,8 +25,9 @@ using solver::Effects;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Largest fraction of the remaining tolerance that a change measured on a coarse model may use.
-/// kForSecondOrder applies near the buckling load, where a coarse mesh is less accurate.
+/// Largest fraction of the remaining tolerance that a change of the results measured on a coarse
+/// mesh may use. kForSecondOrder applies near the buckling load, where a coarse mesh is less
+/// accurate.
 constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
 
 class Selector {
@@ -245,8 +246,8 @@ class Selector {
   ResponseScale scale_of_motion() {
     if (const auto history = analysis_.find("load_history"))
       throw history->error(
-          "automatic effects require a constant load; a pulse may fall between the times at which "
-          "effects are measured");
+          "automatic effects require a constant load; a load pulse may fall between the times at "
+          "which the change of the results by an effect is measured");
     CaseModel coarse = coarsen_scene(scene_, 1);
     coarse.effects = scope_.remove_with_dependents(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
@@ -311,7 +312,8 @@ class Selector {
         selection_.chosen = scope_.applicable;
       }
     }
-    // A computation with large displacement includes gyroscopic terms without additional cost.
+    // A computation with large displacement includes gyroscopic terms without additional computing
+    // time.
     if (!selection_.chosen.has(Effect::large_displacement) &&
         selection_.chosen.has(Effect::inertia)) {
       measure_without(coarse, Effect::gyroscopic);

@@ -19,7 +19,7 @@
 /// dimensionless numbers decide about the removal.
 namespace trammel::harness {
 
-/// Evidence for the importance of one effect.
+/// Evidence for the influence of one physical effect on the results.
 struct EffectEvidence {
   std::optional<double> number;  ///< dimensionless number of the effect
   std::optional<double> own;     ///< relative change if only this effect is removed
@@ -43,7 +43,8 @@ struct EffectSelection {
   /// Relative change of the results by large displacement; empty if the analysis can compute large
   /// displacement or if there is no estimate.
   std::optional<double> beyond_tier;
-  double work = 0;  ///< work of the selection, as defined by `estimated_work` in coarse_scene.h
+  /// Computing work of the selection, as defined by `estimated_work` in coarse_scene.h.
+  double work = 0;
 
   [[nodiscard]] EffectEvidence& of(solver::Effect effect) {
     return evidence[static_cast<std::size_t>(effect)];

@@ -8,14 +8,15 @@
 #include "harness/input/reference_library.h"
 #include "harness/statics_modes/step_result.h"
 
-/// Table of all analyses with their names, functions, requirements and effects.
+/// Table of all analyses with their names, functions, requirements and selectable physical effects.
 namespace trammel::harness {
 
 struct AnalysisKind {
   const char* name;  ///< key of the case below "analysis"
   std::variant<std::monostate, AnalyseStep*, AnalysePath*> of_scene = {};
   bool needs_manipulator = false;
-  const EffectRules* effects = nullptr;  ///< null: the analysis does not support effects
+  /// Rules for selecting physical effects; null: none can be selected.
+  const EffectRules* effects = nullptr;
   /// Function that performs the analysis if `of_scene` is empty or the case has no key "model".
   AnalyseCase* of_case = nullptr;
   const char* without_model = "";  ///< description of the model if `of_case` is used

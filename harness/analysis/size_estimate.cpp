@@ -11,9 +11,10 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes per coordinate, per non-zero of a matrix factor and per recorded number. These numbers were
-// measured and include a margin (size_estimate_test). Coordinates require memory in the model,
-// matrices and states. Recorded numbers are also written as JSON and drawn.
+// Memory [bytes] per coordinate of the model, per non-zero of a matrix factor and per recorded
+// number. These numbers were measured and include a margin (size_estimate_test). Coordinates
+// require memory in the model, matrices and states. Recorded numbers are also written as JSON and
+// drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
 /// Memory per number of a sensitivity map, and per number of the samples of a neural network
 /// [bytes]. The numbers of a map are rounded and drawn; the numbers of samples are read from JSON.
@@ -23,7 +24,7 @@ constexpr double kResponseNumber = 22;
 
 /// Returns the memory per coordinate of an analysis, relative to the memory of statics, which is
 /// the largest.
-double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
+double relative_memory(const std::string& kind, const JsonView& analysis, bool in_plane) {
   if (kind == "manufactured") return 0.5;
   if (kind != "harmonic" || in_plane) return 1;
   return analysis.has("damping") ? 0.75 : 0.45;
@@ -35,8 +36,8 @@ class Estimator {
 
   SizeEstimate run() {
     const auto [kind, analysis] = root_["analysis"].entries().front();
-    share_in_plane_ = share_of(kind, analysis, true);
-    share_of_members_ = share_of(kind, analysis, false);
+    share_in_plane_ = relative_memory(kind, analysis, true);
+    share_of_members_ = relative_memory(kind, analysis, false);
     if (kind == "grnn") numbers_ = 50;
     if (root_.has("model")) count_model(root_["model"]);
     if (kind == "study") {

@@ -81,8 +81,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
       for (const auto& member : members) keys.insert(member.first);
     return !keys.insert(name).second;
   }
-  /// Makes room for one more member. A vector that grows automatically would copy all members,
-  /// because their constant keys cannot be moved.
+  /// Reserves memory for one more member of a JSON object. A vector that grows automatically would
+  /// copy all members, because their constant keys cannot be moved.
   static void make_room(Json::object_t::Container& members) {
     if (members.size() < members.capacity()) return;
     Json::object_t::Container more;

@@ -111,7 +111,7 @@ using Owners = std::span<std::atomic<pid_t>>;
 
 /// Assigns the first task that has not started to this process.
 /// @returns the index of the task; the number of tasks if all tasks have started
-std::size_t take_task(Owners owners) {
+std::size_t claim_next_task(Owners owners) {
   for (std::size_t task = 0; task < owners.size(); ++task)
     if (pid_t nobody = 0; owners[task].compare_exchange_strong(nobody, getpid())) return task;
   return owners.size();
@@ -160,7 +160,7 @@ Child start_child(const std::function<void(int out)>& run) {
 /// Reads available output of a child process.
 /// @returns true if more output may follow
 bool drain(Child& child) {
-  std::array<char, 65536> buffer;  // not initialized, because zeroing is slow
+  std::array<char, 65536> buffer;  // not initialized, because filling it with zeros is slow
   const ssize_t n = read(child.output, buffer.data(), buffer.size());
   if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
   if (child.text.size() > child.kept_bytes)
@@ -204,7 +204,7 @@ void put(int out, const void* data, std::size_t bytes) {
   std::set_new_handler([] { _exit(kOutOfMemory); });
   if (kLimitsMemory && memory_bytes > 0) limit(RLIMIT_AS, memory_bytes);
   allowed_bytes = memory_bytes;
-  for (std::size_t number = 0; (number = take_task(owners)) < tasks.size();) {
+  for (std::size_t number = 0; (number = claim_next_task(owners)) < tasks.size();) {
     const Stopwatch watch;
     const auto used_s = static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC);
     const rlimit cpu{used_s + tasks[number].cpu_limit_s + 1, RLIM_INFINITY};
@@ -227,7 +227,7 @@ void put(int out, const void* data, std::size_t bytes) {
 
 /// Returns the outcome of a task whose worker ended without an answer, with the reason.
 /// @param outcome  exit status or signal of the worker, and its computing times
-ProcessOutcome unanswered(ProcessOutcome outcome, unsigned cpu_limit_s) {
+ProcessOutcome explain_missing_answer(ProcessOutcome outcome, unsigned cpu_limit_s) {
   const int status = outcome.status;
   const auto because = [&](Termination termination, const std::string& reason) {
     outcome.termination = termination;
@@ -334,7 +334,7 @@ class ProcessPool {
       const ProcessOutcome outcome = reap(child);
       for (std::size_t task = 0; task < tasks.size(); ++task)
         if (owners[task] == child.process)
-          ended(task, unanswered(outcome, tasks[task].cpu_limit_s));
+          ended(task, explain_missing_answer(outcome, tasks[task].cpu_limit_s));
     }
     return 0;
   }
@@ -419,7 +419,7 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
     while (any_waits() && pool.size() < std::max(1U, options.at_once))
       if (!pool.start(tasks, owners, options.memory_bytes)) {
         if (pool.size() > 0) break;
-        end(take_task(owners), {Termination::not_started, std::strerror(errno)});
+        end(claim_next_task(owners), {Termination::not_started, std::strerror(errno)});
       }
     if (pool.size() > 0) signal = pool.wait(tasks, owners, end, options.waiting);
   }

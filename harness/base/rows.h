@@ -20,7 +20,8 @@ struct Column {
   Column(const char* key, const std::string& head = "", int digits = 6, double scale = 1);
 };
 
-/// Output of a command: rows of cells with the same columns, in three formats.
+/// Output of a command: rows of cells with the same columns, in three formats (text table, JSON and
+/// CSV).
 class Rows {
  public:
   explicit Rows(std::vector<Column> columns) : columns_(std::move(columns)) {}

@@ -25,7 +25,7 @@ Elapsed measure(const std::function<void()>& work, int runs) {
 
 /// Returns the number of calls of `work` that take about `shortest_s` [s], at most kMaxRunsEach.
 /// Calls `work` once to warm up, and once to measure its time.
-int runs_for(const std::function<void()>& work, double shortest_s) {
+int run_count_for_duration(const std::function<void()>& work, double shortest_s) {
   work();
   const double once = std::max(measure(work, 1).cpu_s, 1e-7);
   return std::clamp(static_cast<int>(std::ceil(shortest_s / once)), 1, kMaxRunsEach);
@@ -41,7 +41,7 @@ RelativeTime time_ratio(const std::vector<double>& times, const std::vector<doub
   std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
-  std::size_t outside = 0;  // number of ratios below (and also above) the interval
+  std::size_t outside = 0;  // number of ratios below the interval, equal to the number above it
   while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.02) ++outside;
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }
@@ -75,7 +75,7 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
   std::vector<Timing> timings(works.size());
   std::vector<std::vector<double>> wall(works.size());
   for (std::size_t i = 0; i < works.size(); ++i)
-    timings[i].runs_each = runs_for(works[i], options.shortest_s);
+    timings[i].runs_each = run_count_for_duration(works[i], options.shortest_s);
   std::uint64_t state = options.seed;
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     for (const std::size_t i : shuffle_indices(works.size(), state)) {

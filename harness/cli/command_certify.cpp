@@ -35,14 +35,15 @@ constexpr std::pair<const char*, int> kRounding[] = {{"to the nearest", FE_TONEA
                                                      {"downwards", FE_DOWNWARD},
                                                      {"toward zero", FE_TOWARDZERO}};
 
-std::vector<Configuration> computed(const std::vector<Case>& cases, const CommandOptions& given) {
+std::vector<Configuration> compute_configurations(const std::vector<Case>& cases,
+                                                  const CommandOptions& given) {
   const References references;
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
     const RunOptions options{.jobs = given.jobs, .memory_bytes = given.memory_bytes};
     set_solver_rounding(mode);
     const std::vector<Run> runs =
-        run_with_progress(cases, references, options, std::string("runs rounded ") + name);
+        run_with_progress(cases, references, options, std::string("runs rounding ") + name);
     set_solver_rounding(FE_TONEAREST);
     configurations.push_back({name, collect_results(runs, cases, references)});
   }
@@ -55,7 +56,7 @@ void print_certificate(const Json& certificate) {
     std::cout << title;
     Rows(columns, certificate[key]).print(std::cout, "  ");
   };
-  print_rows("Digits (of 16) of judged numbers that agree with rounding to the nearest\n",
+  print_rows("Digits (of 16) of checked numbers that equal those with rounding to the nearest\n",
              "configurations",
              {{"configuration"},
               {"checks"},
@@ -64,10 +65,10 @@ void print_certificate(const Json& certificate) {
               {"fewest_digits", "fewest", 3},
               {"fewest_of", "least certain"}});
   if (!certificate["tight_tolerances"].empty())
-    print_rows("\nTolerances less than ten times the noise\n", "tight_tolerances",
+    print_rows("\nTolerances below ten times the noise (difference)\n", "tight_tolerances",
                {{"check"}, {"tolerance", "", 2}, {"noise", "", 2}, {"configuration"}});
   if (certificate["flips"].empty()) {
-    std::cout << "\nNo verdict differs, and none is missing.\n";
+    std::cout << "\nNo verdict differs between the configurations, and none is missing.\n";
   } else {
     print_rows("\nVerdicts and runs that differ or are missing\n", "flips",
                {{"check", "check or run"}, {"from", "verdict"}, {"to", "now"}, {"configuration"}});
@@ -96,7 +97,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
     stored.push_back({name, read_results_json(file)});
     require_same_cases(cases, file, stored.back().results);
   }
-  std::vector<Configuration> configurations = computed(cases, options);
+  std::vector<Configuration> configurations = compute_configurations(cases, options);
   for (Configuration& build : stored) configurations.push_back(std::move(build));
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,

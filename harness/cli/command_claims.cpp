@@ -14,8 +14,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the values computed for an interpretation of a claim as text: ": 0.99998 (circle-load)"
-/// or ": 0.0051 ... 0.0079 m (statics)".
+/// Returns, as text, the values computed for an interpretation of a claim: ": 0.99998
+/// (circle-load)" or ": 0.0051 ... 0.0079 m (statics)".
 std::string measured(const results::ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [low, high] =

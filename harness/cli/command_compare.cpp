@@ -72,7 +72,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
 
 /// Returns the results to be compared (sides): contents of results files, each read once, or
 /// results of cases that are computed.
-std::vector<Side> sides_of(const std::vector<std::string>& names) {
+std::vector<Side> load_or_compute_results(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
   for (const std::string& name : names) {
@@ -92,9 +92,9 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Prints the computing time and the accuracy of each side of a comparison.
+/// Prints the computing time and the accuracy of each compared set of results (side).
 void print_sides(const SideComparison& comparison) {
-  std::vector<Column> columns = {{"label", "side"},
+  std::vector<Column> columns = {{"label", "result"},
                                  {"runs"},
                                  {"cpu_s", "time [s]", 3},
                                  {"relative_time", "of first", 3},
@@ -116,7 +116,7 @@ Json error_percent(const results::ComparedValue& value, std::size_t side) {
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {
   if (run.modes.empty()) return;
   Rows table({"mode",
-              "side",
+              "result",
               "modes",
               {"Hz", "", 8},
               {"percent", "", 3},
@@ -136,9 +136,9 @@ void print_modes(const ComparedRun& run, const SideComparison& comparison) {
                "subspaces are compared)\n";
 }
 
-/// Adds three columns for each side: the value, its difference from the first side in percent, and
-/// its discretization error in percent.
-std::vector<Column> with_sides(std::vector<Column> columns, const SideComparison& comparison) {
+/// Adds three columns for each compared set of results (side): the value, its difference from the
+/// value of the first side [%], and its discretization error [%].
+std::vector<Column> append_columns(std::vector<Column> columns, const SideComparison& comparison) {
   for (const ComparedSide& side : comparison.sides) {
     columns.emplace_back(side.label.c_str(), "", 10);
     columns.emplace_back((side.label + " [%]").c_str(), "", 3);
@@ -157,7 +157,7 @@ void add_row(std::vector<Json> cells, const results::ComparedValue& value, Rows&
 }
 
 void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
-  Rows table(with_sides({"quantity", "index"}, comparison));
+  Rows table(append_columns({"quantity", "index"}, comparison));
   std::set<std::string> same, changed;
   for (ComparedNumber number : run.numbers) {
     (number.changed ? changed : same).insert(number.quantity);
@@ -169,7 +169,7 @@ void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
   if (!table.empty()) table.print(std::cout);
   std::erase_if(same, [&](const std::string& name) { return changed.count(name) > 0; });
   if (!same.empty())
-    std::cout << wrapped("Within round-off: " + join({same.begin(), same.end()}, "and"), "");
+    std::cout << wrapped("Equal up to round-off: " + join({same.begin(), same.end()}, "and"), "");
   for (const std::string& remark : run.remarks) std::cout << wrapped(remark, "");
 }
 
@@ -186,7 +186,7 @@ void print(const SideComparison& comparison) {
 }
 
 std::string csv(const SideComparison& comparison) {
-  Rows rows(with_sides({"run", "quantity", "index", "changed", "noise"}, comparison));
+  Rows rows(append_columns({"run", "quantity", "index", "changed", "noise"}, comparison));
   for (const ComparedRun& run : comparison.runs) {
     for (const results::ComparedModes& modes : run.modes)
       add_row({run.name, "frequency_Hz", modes.modes[0].front() - 1, modes.changed, modes.noise},
@@ -213,7 +213,7 @@ Json read_if_results(const fs::path& file) {
 
 int compare_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.html.empty()) require_gnuplot(renderers);
-  std::vector<Side> sides = sides_of(options.words);
+  std::vector<Side> sides = load_or_compute_results(options.words);
   const SideComparison comparison = compare_sides(std::move(sides), !options.html.empty());
   if (options.json) {
     std::cout << format_json(to_json(comparison));

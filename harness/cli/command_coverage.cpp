@@ -15,7 +15,8 @@ namespace {
 
 using results::CoverageRow;
 
-/// Prints the features of a group without independent evidence, and the numbers of all features.
+/// Prints the features of a group that have no independent evidence, and counts all features of the
+/// group.
 void print_group(const std::vector<CoverageRow>& rows, const std::string& group) {
   Rows table({group.c_str(), "reason"});
   int verified = 0, stated = 0, open = 0, all = 0;
@@ -29,8 +30,8 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group)
   }
   if (!table.empty()) table.print(std::cout);
   std::cout << group << ": " << verified << " of " << all << " with independent evidence, "
-            << stated << " without, with a recorded reason (" << open << " of them open), "
-            << all - verified - stated << " without a reason\n\n";
+            << stated << " without it but with a recorded reason (" << open << " open), "
+            << all - verified - stated << " with neither\n\n";
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void add_run(Rows& rows, const EffectRun& run, const EffectRun& full) {
             run.counters.element_evaluations, run.counters.factorizations, run.counters.solves});
 }
 
-Rows own_contributions(const EffectStudy& study) {
+Rows contribution_rows(const EffectStudy& study) {
   Rows rows(kRunColumns);
   add_run(rows, study.full, study.full);
   for (const EffectRun& run : study.without_one) add_run(rows, run, study.full);
@@ -88,7 +88,7 @@ results::EffectScene scene_of(const std::string& id, const std::string& analysis
 Json study_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
   Json json = results::to_json(scene_of(id, analysis, study));
   json["effects"] = results::to_json(study.choice.rows);
-  json["runs"] = own_contributions(study).json();
+  json["runs"] = contribution_rows(study).json();
   return json;
 }
 
@@ -99,8 +99,8 @@ bool holds(const EffectStudy& study) {
 }
 
 void print_study(const EffectStudy& study) {
-  std::cout << "\nMeasured against the model with all effects\n";
-  own_contributions(study).print(std::cout, "  ");
+  std::cout << "\nChanges measured against the model with all effects\n";
+  contribution_rows(study).print(std::cout, "  ");
   std::cout << "  time, work: relative to the full model; work: counted factorizations, solves and "
                "element matrices, weighted by unknowns\n\nChosen    "
             << effect_names(study.choice.chosen) << "\nEffects   "
@@ -108,7 +108,7 @@ void print_study(const EffectStudy& study) {
             << " from the full model, measured; tolerance " << percent(study.tolerance) << '\n';
   if (study.mesh_change) {
     std::cout << "Mesh      " << percent(*study.mesh_change)
-              << " from half the elements to all of them\n";
+              << " change of the results from half the elements to all of them\n";
     if (*study.mesh_change > study.tolerance)
       std::cout << "Warning: the mesh changes the results by more than the tolerance of effects; "
                    "use more elements\n";
@@ -117,10 +117,10 @@ void print_study(const EffectStudy& study) {
     std::cout << "Beyond    " << percent(*study.choice.automatic->beyond_tier)
               << " by large displacement, which this analysis cannot represent\n";
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no")
-            << ", among the expensive effects\nWork      " << rounded(study.work_ratio(), 3)
-            << " of the full model's, "
+            << ", for effects that cost computing time\nWork      "
+            << rounded(study.work_ratio(), 3) << " of the full model's, "
             << rounded(study.choice.automatic->work / study.full.work, 2)
-            << " of it for the selection\n";
+            << " of it to select the effects\n";
 }
 
 /// Writes results.json and a page with the effects selected in the cases `scenes`.
@@ -138,7 +138,8 @@ struct EffectCase {
   Document document;
 };
 
-/// Returns the cases with all `labels` whose analysis supports a selection of effects.
+/// Returns the cases that have all of the `labels` and an analysis that supports a selection of
+/// effects.
 std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
                                      const std::string& variant) {
   std::vector<EffectCase> cases;
@@ -165,7 +166,7 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
   return cases;
 }
 
-int print_one(const EffectCase& scene, const CommandOptions& options) {
+int print_effect_selection(const EffectCase& scene, const CommandOptions& options) {
   const EffectStudy study = study_effects(scene.document, {options.tolerance, options.repeats});
   if (!options.json) {
     std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';
@@ -200,7 +201,7 @@ EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& sto
 int effects_command(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<EffectCase> cases = selected_cases(options);
   if (cases.size() == 1 && options.labels.empty() && options.out.empty())
-    return print_one(cases.front(), options);
+    return print_effect_selection(cases.front(), options);
   if (!options.out.empty()) require_gnuplot(renderers);
   std::vector<results::EffectScene> scenes;
   Json json = Json::array();
@@ -221,8 +222,8 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << format_json(json, 3);
   } else {
     Rows(kSceneColumns, json).print(std::cout);
-    std::cout << "work: selection and chosen set, relative to the full model; mesh: from half the "
-                 "elements to all\n";
+    std::cout << "work: of the selection and the chosen effects, relative to that of all effects; "
+                 "mesh: change of the results from half the elements to all\n";
   }
   return all_hold ? 0 : 1;
 }

@@ -67,7 +67,7 @@ void print_grades(const std::vector<results::Run>& runs) {
     parts.push_back(fmt::format("{} {}", count, to_string(grade)));
   std::cout << count_of(runs.size(), "run") << fmt::format(": {}\n", fmt::join(parts, ", "));
   if (!counts.contains(Grade::agrees) && !counts.contains(Grade::off))
-    std::cout << "No number of the adapter could be judged.\n";
+    std::cout << "No check could judge a number that the adapter returned.\n";
 }
 
 results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,

@@ -40,14 +40,14 @@ void print_history(const Json& history) {
       .print(std::cout);
   const std::string since = "call " + history["since"].dump();
   if (history["since"] == 0) {
-    std::cout << "No call before the newest call is free of failures.\n";
+    std::cout << "Every recorded call before the newest call has failures.\n";
   } else if (history["changes"].empty() && history["work"].empty()) {
-    std::cout << "Nothing has changed since " << since << ", the last without failures.\n";
+    std::cout << "Nothing has changed since " << since << ", the last call without failures.\n";
   }
-  print_changes(history["changes"], "Changed since " + since + ", the last without failures:");
+  print_changes(history["changes"], "Changed since " + since + ", the last call without failures:");
   print_changes(history["work"], "Counted work changed since " + since + ":");
   if (history["drifts"].empty()) return;
-  std::cout << "Slow drifts:\n";
+  std::cout << "Values that drift slowly from call to call:\n";
   Rows({{"name"}, {"steps"}, {"first", "", 10}, {"last", "", 10}}, history["drifts"])
       .print(std::cout, "  ");
 }

@@ -108,7 +108,7 @@ const std::vector<Option>& all_options() {
        "Select cases of the catalogue with this label; repeated: with all labels"},
       {"--label-any", &Options::any_labels,
        "Select cases of the catalogue with one of these labels"},
-      {"--variant", &Options::variant, "Run only this variant; 'base' is the unpatched case"},
+      {"--variant", &Options::variant, "Run only this variant; 'base' is the case without patch"},
       {"-j,--jobs", &Options::jobs,
        "Number of parallel computations; the results do not depend on it", within(1, 1024)},
       {"-o,--out", &Options::out, "Output folder; for 'export', output file"},
@@ -140,8 +140,8 @@ const std::vector<Option>& all_options() {
       {"--open", &Options::open, "Show the report in the default browser"},
       {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
       {"--gate", &Options::gate, "Exit status 1 if a number differs beyond round-off"},
-      {"--sweep", &Options::sweeps, "Use only this sweep of the cases; default: all sweeps"},
-      {"--level", &Options::level, "Level of the sweep, counted from 0; default: the case itself",
+      {"--sweep", &Options::sweeps, "Use only the refinement sweep with this name; default: all"},
+      {"--level", &Options::level, "Level of the refinement sweep, from 0; default: case itself",
        within(0, 1000000)},
       {"--matrices", &Options::matrices,
        "Write K, M, C, T and f (Matrix Market) and the mesh (VTU) to this folder; the case is "
@@ -347,7 +347,8 @@ void require_gnuplot(const Renderers& renderers) {
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
   exit_on_signals("trammel: interrupted; the same command starts from the beginning\n");
-  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the size limit then only fails
+  // Writing beyond the file size limit fails, but does not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     std::vector<std::string> words = arguments;
     if (!words.empty() && words.front() == "help") {

@@ -81,7 +81,7 @@ std::string describe_check(const Check& check) {
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
   text += describe_windows(check);
   return check.expectation == Expectation::known_discrepancy
-             ? text + " (does not agree; recorded range)"
+             ? text + " (recorded range of a known discrepancy)"
              : text;
 }
 

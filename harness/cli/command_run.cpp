@@ -115,7 +115,7 @@ void print_run_errors(const std::vector<Run>& runs) {
 
 /// Returns true if all runs were refused because of invalid input, and prints their errors. The
 /// command then leaves earlier results unchanged.
-bool are_refused(const std::vector<Run>& runs) {
+bool report_if_all_refused(const std::vector<Run>& runs) {
   const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
   if (runs.empty() || !std::ranges::all_of(runs, is_refused)) return false;
   print_run_errors(runs);
@@ -154,9 +154,9 @@ Selection select(const CommandOptions& options) {
 
 /// Runs each function in a separate process. The functions write their results into the store.
 /// @returns true if all functions were completed
-bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
-                     const std::string& items) {
-  constexpr unsigned kLimit = 3600;  // [s]; the computations of a function have separate limits
+bool call_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
+                       const std::string& items) {
+  constexpr unsigned kLimit = 3600;  // [s]; each computation inside a function has a separate limit
   std::vector<ProcessTask> tasks;
   for (const auto& one : work) {
     const auto done = [&one] {
@@ -317,7 +317,7 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   // The calls of `quick_cost_studies` and `catalogue_effect_scenes` below read the results from the
   // store, and compute those that are missing. With --fresh, they read stored results only if all
   // functions in `studies` were completed.
-  const bool measured = do_in_processes(studies, options.jobs, "studies of cost and effects");
+  const bool measured = call_in_processes(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
   results.cost = quick_cost_studies(references, store, resume || measured, error_messages);
   const Document document = load_claims();
@@ -374,7 +374,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   exit_on_signals(kInterrupted);
   const References references;
   std::vector<Run> computed = compute(selection, references, options);
-  if (are_refused(computed)) return 2;
+  if (report_if_all_refused(computed)) return 2;
   const results::Results results = collect_results(std::move(computed), selection.cases, references,
                                                    store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
@@ -417,7 +417,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_uninterrupted(computed);
-  if (are_refused(computed)) return 2;
+  if (report_if_all_refused(computed)) return 2;
   results::Results results = collect_results(std::move(computed), selection.cases, references,
                                              store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;

@@ -29,7 +29,7 @@ struct CommandOptions {
   std::string out;    ///< output folder (`export`, `solve`: file); empty: standard output
   std::string store;  ///< folder of stored computations; empty: OUT/store
   bool resume = false, fresh = false;
-  bool any_machine = false;  ///< with --resume, reuse times measured elsewhere
+  bool any_machine = false;  ///< with --resume, reuse times measured on other machines
   std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
   bool quiet = false;  ///< prints only runs that fail or have warnings, and the summary
@@ -46,7 +46,7 @@ struct CommandOptions {
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
-  /// True if discretization errors are estimated for all cases, or for no case.
+  /// `all_errors`: estimate the discretization errors of all cases. `no_errors`: estimate none.
   bool all_errors = false, no_errors = false;
   double warn_above = 0;  ///< relative discretization error for warnings; 0: default
   double accuracy = 0;    ///< relative error for the search of mesh and step; 0: no search

@@ -91,7 +91,7 @@ WrittenNames written_names(const Document& document) {
 
 /// Returns the parts that have quantities in the case but do not keep their name in the exported
 /// case.
-std::set<std::string> lost_parts(const Document& document, const solver::Model& model) {
+std::set<std::string> renamed_parts(const Document& document, const solver::Model& model) {
   std::set<std::string> lost;
   if (!JsonView(document).has("model")) return lost;
   for (const auto& edge : JsonView(document)["model"].entries("edges")) lost.insert(edge.first);
@@ -112,8 +112,8 @@ Json length_of(const Document& document, const std::string& name) {
 
 /// Returns the checks of this variant, and the checks that compare other variants with this
 /// variant.
-std::vector<Check> checks_that_look_at(const Document& document, const std::string& variant,
-                                       const Case& given) {
+std::vector<Check> checks_of_variant(const Document& document, const std::string& variant,
+                                     const Case& given) {
   const std::vector<std::string> variants = given.variants();
   std::vector<Check> checks = read_checks(document, variant, variants);
   for (const std::string& other : variants) {
@@ -124,9 +124,9 @@ std::vector<Check> checks_that_look_at(const Document& document, const std::stri
   return checks;
 }
 
-Json asked_quantities(const Document& document, const std::vector<Check>& checks,
-                      const solver::Model& model) {
-  const std::set<std::string> lost = lost_parts(document, model);
+Json export_quantities(const Document& document, const std::vector<Check>& checks,
+                       const solver::Model& model) {
+  const std::set<std::string> lost = renamed_parts(document, model);
   Json asked = Json::array();
   std::set<std::string> seen = {""};
   for (const Check& check : checks)
@@ -166,8 +166,9 @@ Json row(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// Describes the rigid manipulator at the first point of the path, and the path of P as a table
-/// over time. Bodies have mass, inertia, center and angle. Joints have two bodies and a position.
+/// Describes the rigid manipulator at the first point of the path, and the path of the platform
+/// point P as a table over time. Bodies have mass, inertia, center and angle. Joints have two
+/// bodies and a position.
 Json mechanism_json(const CaseModel& case_model) {
   const solver::RigidManipulator rigid = solver::rigid_manipulator(*case_model.manipulator);
   const solver::TrajectoryPoint& first = case_model.motion.front();
@@ -198,7 +199,7 @@ Json mechanism_json(const CaseModel& case_model) {
 /// the elastic model at the first point of the path.
 Json mechanism_of(const Document& document) {
   const CaseModel case_model = read_case_model(document);
-  if (!case_model.manipulator) throw analysis_place(document).error("requires a 'manipulator'");
+  if (!case_model.manipulator) throw analysis_place(document).error("expected a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
   if (analysis_kind(document) == "elastodynamics") {
     mechanism["elastic_model"] = rethrow_as_input_error(document, [&] {
@@ -210,7 +211,7 @@ Json mechanism_of(const Document& document) {
 }
 
 /// Lists the named nodes of a large motion under the key "nodes" if this key is absent. Without
-/// this list, the exported case would also record nodes that receive a name only by the export.
+/// this list, the exported case would also record nodes that have no name in the original case.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();
@@ -279,9 +280,8 @@ Json export_case(const Case& given, const ExportChoice& choice) {
       {"level", choice.level ? Json(*choice.level) : Json(nullptr)},
       {"hash", content_hash(whole.dump())},
       {"trammel", TRAMMEL_VERSION},
-      {"quantities",
-       asked_quantities(document, checks_that_look_at(document, choice.variant, given),
-                        scene.model)}};
+      {"quantities", export_quantities(document, checks_of_variant(document, choice.variant, given),
+                                       scene.model)}};
   if (!choice.sweep.empty()) about["sweep"] = choice.sweep;
   if (of_mechanism) about["mechanism"] = mechanism_of(document);
   return exported;

@@ -17,7 +17,7 @@
 /// arcs. A manipulator at rest is also replaced by its nodes and members.
 namespace trammel::harness {
 
-/// Selects one computation of a case.
+/// Variant and refinement level of a case, which select one computation.
 struct ExportChoice {
   std::string variant = kBaseVariant;
   std::string sweep = {};  ///< name of the sweep; empty: the only sweep of the case

@@ -87,19 +87,19 @@ void write_system_matrices(const Document& document, const ExportedScene& scene,
   });
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  write_file(folder / "K.mtx", matrix_market(system.K, true, "stiffness of q [SI]"));
+  write_file(folder / "K.mtx", matrix_market(system.K, true, "stiffness matrix for q [SI]"));
   if (system.M.size() > 0)
-    write_file(folder / "M.mtx", matrix_market(system.M, true, "mass of q [SI]"));
+    write_file(folder / "M.mtx", matrix_market(system.M, true, "mass matrix for q [SI]"));
   const std::string kind = analysis_kind(document);
   if (kind == "transient" || kind == "harmonic") {
     const solver::RayleighDamping rayleigh =
         read_damping(JsonView(document)["analysis"][kind], system.K.rows()).rayleigh;
     if (rayleigh.mass != 0 || rayleigh.stiffness != 0) {
       const SparseMatrix C = solver::damping_matrix(rayleigh, system.M, system.K);
-      write_file(folder / "C.mtx", matrix_market(C, true, "Rayleigh damping of q [SI]"));
+      write_file(folder / "C.mtx", matrix_market(C, true, "Rayleigh damping matrix [SI]"));
     }
   }
-  write_file(folder / "T.mtx", matrix_market(system.T, false, "u = T q"));
+  write_file(folder / "T.mtx", matrix_market(system.T, false, "matrix T of u = T q"));
   write_file(folder / "f.mtx", matrix_market(system.f.sparseView(), false, "loads on q [N, N m]"));
   write_file(folder / "coordinates.csv", coordinate_table(system));
   write_file(folder / "mesh.vtu", mesh_text(system));

@@ -25,9 +25,9 @@ std::array<double, 3> quotients(double product, double divisor) {
   return {x, std::nextafter(x, 0), std::nextafter(x, beyond)};
 }
 
-/// Returns the first candidate that satisfies the predicate, or else the first candidate.
+/// Returns the first candidate value that satisfies the predicate, or else the first candidate.
 template <class Gives>
-double first_that(const std::array<double, 3>& candidates, const Gives& gives) {
+double first_match(const std::array<double, 3>& candidates, const Gives& gives) {
   for (const double x : candidates)
     if (gives(x)) return x;
   return candidates.front();
@@ -40,7 +40,7 @@ double second_moment(const solver::Section& section, const solver::Material& mat
   const auto stiff = [&](double I) { return material.E * I == section.EI; };
   for (const double I : candidates)
     if (stiff(I) && material.rho * I == section.inertia_per_length) return I;
-  return first_that(candidates, stiff);
+  return first_match(candidates, stiff);
 }
 
 double shear_coefficient(const solver::Section& section, const solver::Material& material) {
@@ -48,7 +48,7 @@ double shear_coefficient(const solver::Section& section, const solver::Material&
   const auto gives = [&](double k) { return k * G * section.area == section.kappa_GA; };
   constexpr double kRectangle = 5.0 / 6.0;
   if (gives(kRectangle)) return kRectangle;
-  return first_that(quotients(section.kappa_GA / section.area, G), gives);
+  return first_match(quotients(section.kappa_GA / section.area, G), gives);
 }
 
 bool nearly(double a, double b) {
@@ -91,8 +91,8 @@ solver::Material SectionTable::material_of(const solver::Section& section) const
     made = material;
   }
   if (made.E == 0)
-    made.E = first_that(quotients(section.EA, A), [&](double E) { return E * A == section.EA; });
-  made.rho = first_that(quotients(mass, A), [&](double rho) { return rho * A == mass; });
+    made.E = first_match(quotients(section.EA, A), [&](double E) { return E * A == section.EA; });
+  made.rho = first_match(quotients(mass, A), [&](double rho) { return rho * A == mass; });
   return made;
 }
 
@@ -118,7 +118,7 @@ std::string SectionTable::name_of(const solver::Section& section) {
                {"shear_coefficient", shear_coefficient(section, material)}};
   const double I = made["second_moment_m4"].get<double>(), W = section.section_modulus;
   if (I > 0 && W > 0 && std::isfinite(W))
-    made["half_depth_m"] = first_that(quotients(I, W), [&](double c) { return I / c == W; });
+    made["half_depth_m"] = first_match(quotients(I, W), [&](double c) { return I / c == W; });
   for (const auto& [name, known] : sections_.items())
     if (known == made) return name;
   std::string name = "section-" + std::to_string(sections_.size() + 1);
@@ -135,7 +135,7 @@ std::vector<std::pair<std::string, solver::Material>> SectionTable::materials() 
 
 /// Writes the fields of a part of the model as the JSON object that `FieldReader` reads.
 struct FieldWriter {
-  const std::vector<std::string>& node;  ///< names of nodes, by index
+  const std::vector<std::string>& node;  ///< names of the model's nodes, by index
   SectionTable& table;
   Json json = Json::object();
 
@@ -217,8 +217,8 @@ class Parts {
   std::set<std::string> names_;
 };
 
-/// Replaces tapered members by chains of uniform members, one per element. Each has the section at
-/// the middle of its element.
+/// Replaces tapered members by chains of uniform members, one per element. Each uniform member has
+/// the section at the middle of the element that it replaces.
 void cut_tapers(Model& model) {
   const std::vector<solver::Member> members = std::exchange(model.members, {});
   for (const solver::Member& member : members) {

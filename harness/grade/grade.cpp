@@ -49,7 +49,7 @@ bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& li
       return true;
     case Ending::disk_full:
       end_as(run, Status::crashed,
-             "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB of files");
+             "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB of files written");
       return true;
     case Ending::not_started:
       end_as(run, Status::error, std::string("not started: ") + std::strerror(outcome.status));
@@ -71,13 +71,13 @@ bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& li
 
 /// Removes the file from a message: "FILE: /model/trajectory: ..." becomes "/model/trajectory:
 /// ...".
-std::string without_file(const std::string& message) {
+std::string remove_file_name(const std::string& message) {
   const std::size_t at = message.find(": /");
   return at == std::string::npos ? message : message.substr(at + 2);
 }
 
-/// Runs the adapter once in a separate folder. Its files are kept unless their size exceeds
-/// `kMaxKeptBytes`.
+/// Runs the adapter once in a separate folder. The files in this folder are kept unless their total
+/// size exceeds `kMaxKeptBytes`.
 void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run& run) {
   std::error_code error;
   fs::remove_all(folder, error);
@@ -173,13 +173,14 @@ OtherSolver adapter_solver(const Adapter& adapter) {
     try {
       json = export_case(owner, {variant});
     } catch (const InputError& refused) {
-      return end_as(run, Status::not_exported, without_file(one_line(refused.what())));
+      return end_as(run, Status::not_exported, remove_file_name(one_line(refused.what())));
     }
     call(adapter, folder, json, run);
     if (run.is_solved() && with_sweeps && run.solver.element_order)
       run.sweeps = swept(adapter, folder, owner, variant, document, checks, run);
   };
-  // The wall time limits an adapter. This limit of processor time applies if the supervision fails.
+  // A call of an adapter is stopped at its limit of wall time. This limit of processor time only
+  // applies if stopping the adapter fails.
   solver.time_limit_s = static_cast<unsigned>(std::min(64 * adapter.limits.wall_s + 1, 1e7));
   return solver;
 }
@@ -190,7 +191,7 @@ constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{64} << 20;
 
 /// Returns name, unit and length of a requested quantity. For other quantities that trammel
 /// defines, returns only the unit.
-Json asked_quantity(const Json& asked, const std::string& name, const InputError& unknown) {
+Json requested_quantity(const Json& asked, const std::string& name, const InputError& unknown) {
   const Json& all = asked.at("quantities");
   const auto found =
       std::ranges::find_if(all, [&](const Json& one) { return one.at("name") == name; });
@@ -248,8 +249,8 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& requeste
     const std::string pointer = (JsonPointer("/quantities") / item.key()).to_string();
     const InputError unknown(
         name, pointer, "trammel has no quantity of this name" + did_you_mean(item.key(), known));
-    run.quantities[item.key()] =
-        read_quantity(item.value(), asked_quantity(requested, item.key(), unknown), name, pointer);
+    run.quantities[item.key()] = read_quantity(
+        item.value(), requested_quantity(requested, item.key(), unknown), name, pointer);
   }
   if (json.contains("cost") && json.at("cost").contains("seconds"))
     run.cost.timings = {{"solver", json.at("cost").at("seconds").get<double>(), 1}};

@@ -12,8 +12,8 @@
 namespace trammel::harness {
 
 struct Adapter {
-  std::vector<std::string> words;  ///< program and arguments
-  std::filesystem::path folder;    ///< contains one folder for each call
+  std::vector<std::string> words;  ///< program of the adapter, and its arguments
+  std::filesystem::path folder;    ///< folder with a subfolder for each call of the adapter
   ProgramLimits limits;            ///< limits of one call of the adapter
 };
 

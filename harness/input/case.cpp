@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// Returns the part of an extended case that the extending case inherits: the keys that define the
 /// computation, without checks.
-Json inherited(const Json& base) {
+Json select_inherited_keys(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"})
     if (base.contains(key)) inherited_keys[key] = base.at(key);
@@ -54,7 +54,7 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
     apply_with_bases(document, base, catalogue, seen);
   }
   const bool outermost = seen.size() == 1;
-  document.apply_patch(file.string(), "", outermost ? json : inherited(json));
+  document.apply_patch(file.string(), "", outermost ? json : select_inherited_keys(json));
 }
 
 void check_variant_names(const Case& given) {
@@ -77,7 +77,7 @@ void check_indicators(const Case& given) {
   }
 }
 
-InputError no_such_place(const JsonView& pointer, const std::string& guess) {
+InputError invalid_pointer_error(const JsonView& pointer, const std::string& guess) {
   return pointer.error("expected a pointer to a value of the case, such as /model/elements (got '" +
                        printable(pointer.get<std::string>()) + "')" + guess);
 }
@@ -96,7 +96,7 @@ std::optional<SchemaFault> schema_error_of_new_key(const Json& document, const J
 }
 
 /// @throws InputError  if the pointer leads neither to a value nor to a key that may be added
-void require_place(const Document& document, const JsonView& pointer, const Json& value) {
+void require_settable_key(const Document& document, const JsonView& pointer, const Json& value) {
   const auto text = pointer.get<std::string>();
   try {
     const JsonPointer place(text);
@@ -104,17 +104,17 @@ void require_place(const Document& document, const JsonView& pointer, const Json
     const auto schema_error = schema_error_of_new_key(document.value(), place, value);
     if (!schema_error) return;
     const auto guess = schema_error->message.find("; did you mean");
-    throw no_such_place(pointer,
-                        guess == std::string::npos ? "" : schema_error->message.substr(guess));
+    throw invalid_pointer_error(
+        pointer, guess == std::string::npos ? "" : schema_error->message.substr(guess));
   } catch (const Json::exception&) {
-    throw no_such_place(pointer, "");
+    throw invalid_pointer_error(pointer, "");
   }
 }
 
 Json patch_of_pointers(const JsonView& sweep, const Document& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
-    require_place(document, at, value);
+    require_settable_key(document, at, value);
     patch.merge_patch(patch_setting_value(document.value(), at.get<std::string>(), value));
   }
   return patch;
@@ -220,7 +220,7 @@ void require_pointer(const Document& document, const JsonView& pointer) {
   } catch (const Json::exception&) {
     found = false;
   }
-  if (!found || text.empty()) throw no_such_place(pointer, "");
+  if (!found || text.empty()) throw invalid_pointer_error(pointer, "");
 }
 
 Json patch_setting_value(const Json& document, const std::string& pointer, const Json& value) {

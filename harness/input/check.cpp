@@ -23,7 +23,7 @@ void require_variant(const JsonView& place, const std::vector<std::string>& vari
 
 /// Returns the only one of the alternative `keys` that the JSON object contains. Rejects an object
 /// that contains none or several of the keys.
-std::string exactly_one(const JsonView& place, const std::vector<std::string>& keys) {
+std::string find_only_key(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
   for (const std::string& key : keys) {
@@ -57,9 +57,9 @@ void read_bound(const JsonView& place, Check& check) {
   check.why = place.text("why");
 }
 
-/// Returns the settings that a sweep states for one quantity, such as its theoretical order of
-/// convergence.
-Json followed(const Json& sweep, const std::string& quantity) {
+/// Returns the keys that a sweep of the case states for one quantity, such as the theoretical order
+/// of convergence.
+Json sweep_keys_of_quantity(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
 
@@ -74,12 +74,12 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
     throw place["sweep"].error(unknown_name_message("a sweep of the case", order.sweep, names));
   }
   const Json& sweep = sweeps.at(order.sweep);
-  const Json own = followed(sweep, quantity);
+  const Json own = sweep_keys_of_quantity(sweep, quantity);
   if (!sweep.contains("theory_order") && !own.contains("theory_order"))
     throw place["sweep"].error(
         "an 'order' check requires a sweep with the key 'theory_order' (this sweep has none)");
   order.of_errors = own.value("is_error", false);
-  if (exactly_one(place, {"within", "two_term_within"}) == "within") {
+  if (find_only_key(place, {"within", "two_term_within"}) == "within") {
     order.within = place.number("within");
   } else {
     order.two_term_within = place.number("two_term_within");
@@ -110,7 +110,7 @@ void require_discrepancy(const JsonView& place, const Check& check) {
       std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
   if (everywhere)
     throw place.error(
-        "expected a window without 0 for a known discrepancy: if the window contains 0, "
+        "expected a range without 0 for a known discrepancy: if the range contains 0, "
         "agreement cannot be detected");
 }
 
@@ -119,7 +119,7 @@ double decimal(double sum) {
   return std::isfinite(sum) ? std::strtod(rounded(sum, 15).c_str(), nullptr) : sum;
 }
 
-/// Returns the windows [v - w, v + w] for stated values v and one half width w.
+/// Returns the allowed intervals [v - w, v + w] for the stated values v and one half width w.
 std::vector<Window> windows_around(const JsonView& values, double half_width) {
   std::vector<Window> windows;
   const auto add = [&](double value) {
@@ -141,12 +141,12 @@ std::vector<Window> read_windows(const JsonView& place) {
 }
 
 void read_expectation(const JsonView& place, Check& check) {
-  const std::string kind = exactly_one(place, {"agrees", "known_discrepancy"});
+  const std::string kind = find_only_key(place, {"agrees", "known_discrepancy"});
   check.expectation = kind == "agrees" ? Expectation::agrees : Expectation::known_discrepancy;
   check.why = place.text(kind);
   const std::string key =
-      exactly_one(place, {"relative", "absolute", "ratio", "value", "relative_between",
-                          "absolute_between", "ratio_between", "value_between"});
+      find_only_key(place, {"relative", "absolute", "ratio", "value", "relative_between",
+                            "absolute_between", "ratio_between", "value_between"});
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
   if (is_value != place.has("within"))
@@ -199,7 +199,7 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
   }
   if (place.has("expect"))
     throw place["expect"].error("'expect' requires the role 'validation' (got another role)");
-  const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
+  const std::string key = find_only_key(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
   if (key == "order") {

@@ -42,7 +42,8 @@ struct OrderCriterion {
   /// Predicted leading term of the relative discretization error (key "leading_term" of a check).
   struct LeadingTerm {
     double coefficient = 0, within = 0;
-    std::string share;  ///< id of the reference with the beam's share of the modal mass
+    /// Id of the reference with the fraction of the modal mass that belongs to the beam.
+    std::string share;
     std::string pointer;
   };
   std::string sweep;
@@ -70,7 +71,7 @@ struct Check {
   Role role = Role::verification;
   Measure measure = Measure::relative;
   std::vector<Window> windows;  ///< allowed intervals: one for all values, or one per value
-  bool symmetric = false;       ///< true for a tolerance t, with the window [-t, t]
+  bool symmetric = false;       ///< true for a plain tolerance t, whose allowed interval is [-t, t]
   Expectation expectation = Expectation::agrees;
   std::string why;
   std::optional<OrderCriterion> order;

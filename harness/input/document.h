@@ -13,7 +13,7 @@ namespace trammel::harness {
 /// File and JSON pointer at which the user wrote a value.
 struct Origin {
   std::string file, pointer;
-  /// True if `pointer` refers to a value in a sweep, by which the sweep replaces a value of the
+  /// True if `pointer` refers to a parameter value of a sweep, which replaces a value of the
   /// document.
   bool is_value = false;
 };

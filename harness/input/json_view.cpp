@@ -4,7 +4,7 @@ namespace trammel::harness {
 namespace {
 
 /// Returns the JSON pointer of a key. `pointer` is parsed only if the key contains '~' or '/'.
-std::string extended(const std::string& pointer, const std::string& key) {
+std::string append_key_to_pointer(const std::string& pointer, const std::string& key) {
   if (key.find_first_of("~/") != std::string::npos) return (JsonPointer(pointer) / key).to_string();
   return pointer + "/" + key;
 }
@@ -16,7 +16,7 @@ bool JsonView::has(const std::string& key) const {
 }
 
 JsonView JsonView::operator[](const std::string& key) const {
-  return {*document_, json_->at(key), extended(pointer_, key)};
+  return {*document_, json_->at(key), append_key_to_pointer(pointer_, key)};
 }
 
 JsonView JsonView::operator[](std::size_t index) const {
@@ -37,8 +37,8 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
     return found;
   }
   for (const auto& item : json_->items())
-    found.emplace_back(item.key(),
-                       JsonView(*document_, item.value(), extended(pointer_, item.key())));
+    found.emplace_back(item.key(), JsonView(*document_, item.value(),
+                                            append_key_to_pointer(pointer_, item.key())));
   return found;
 }
 

@@ -23,7 +23,7 @@ fs::path stored() {
 
 /// Returns the path of references.json next to a user's case. The path is empty for cases of the
 /// catalogue.
-std::string own_file(const fs::path& case_file) {
+std::string user_reference_file(const fs::path& case_file) {
   const fs::path folder = fs::absolute(case_file).parent_path();
   if (is_in_catalogue(folder) || case_file.filename() == kOwnFile) return {};
   return (folder / kOwnFile).string();
@@ -154,7 +154,7 @@ const references::Reference& References::get(const JsonView& id) const {
 
 std::string References::find(const std::string& name, const std::string& case_file,
                              const JsonView& id) const {
-  const std::string own = own_file(case_file);
+  const std::string own = user_reference_file(case_file);
   if (!own.empty()) {
     std::string place = place_of(own, name);
     if (has(own, name)) return place;

@@ -169,7 +169,7 @@ std::string pointer_to(const std::vector<std::string>& path) {
 }
 
 /// Returns the required keys of an object, including keys that other keys of the object require.
-std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
+std::vector<std::string> find_required_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {
     for (const SchemaRule& name : names.GetArray()) keys.push_back(string_of(name));
@@ -193,13 +193,13 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
   }
   std::string wanted = "another object";
   for (const SchemaRule* rule : rules) {
-    for (const std::string& key : needed_keys(object, *rule)) {
+    for (const std::string& key : find_required_keys(object, *rule)) {
       if (object.contains(key)) continue;
       return {pointer_to(path), "expected the key " + quoted(key) + got_keys(object)};
     }
     const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
     if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {
-      const std::vector<std::string> needed = needed_keys(object, *rule);
+      const std::vector<std::string> needed = find_required_keys(object, *rule);
       std::vector<std::string> others;
       std::set_difference(allowed.begin(), allowed.end(), needed.begin(), needed.end(),
                           std::back_inserter(others));

@@ -38,7 +38,7 @@ inline constexpr double kMinHitRate = 0.95;
 /// factors. This factor applies if no observed order is close to the theoretical order.
 inline constexpr double kMaxMedianRatio = 3;
 /// Minimum number of refinement levels for a judgment of the uncertainty bands. With fewer levels,
-/// a single band without the exact value would decide the result.
+/// a single band that does not contain the exact value would decide the verdict.
 inline constexpr std::size_t kMinLevels = 100;
 
 /// Compares uncertainty bands (grid convergence index) with exact values: the hit rate, and the

@@ -122,7 +122,7 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
         "the numbers of values differ: {} computed, {} expected; the key 'index' selects values",
         pairs.computed.size(), pairs.expected.size())};
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size())
-    throw NotComparable{fmt::format("{} values were computed, but the check has {} windows",
+    throw NotComparable{fmt::format("{} values were computed, but the check has {} ranges",
                                     pairs.computed.size(), check.windows.size())};
   return pairs;
 }
@@ -193,7 +193,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   if (!holds) entry.message = outside(check, value, *window);
 }
 
-std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
+std::vector<CheckResult> keep_worst_entry(std::vector<CheckResult> entries) {
   CheckResult worst = *std::ranges::min_element(entries, results::is_worse_than);
   worst.message = "worst of " + std::to_string(entries.size()) +
                   (worst.message.empty() ? " entries" : " entries: " + worst.message);
@@ -216,7 +216,7 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
     evaluate_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
     entries.push_back(std::move(entry));
   }
-  return entries.size() > kMaxEntries ? worst_of(std::move(entries)) : entries;
+  return entries.size() > kMaxEntries ? keep_worst_entry(std::move(entries)) : entries;
 }
 
 std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContext& context) {
@@ -232,7 +232,7 @@ std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContex
 
 /// Judges a negative control: it passes if the worst entry has the required verdict and message.
 CheckResult judge_control(const Check& check, const std::vector<CheckResult>& entries) {
-  CheckResult control = worst_of(entries).front();
+  CheckResult control = keep_worst_entry(entries).front();
   const NegativeControl& asked = *check.negative_control;
   const std::string verdict = to_string(control.verdict);
   const bool holds = verdict == asked.verdict &&
@@ -240,12 +240,13 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
                      (!asked.index || control.index == asked.index);
   const std::string found = "'" + verdict + "' (" + control.message + ")";
   control.message = holds
-                        ? "judged " + found + ", as required"
+                        ? "the verdict is " + found + ", as required"
                         : fmt::format("expected '{}'{} with '{}' (got {})", asked.verdict,
                                       asked.index ? fmt::format(" of entry {}", *asked.index) : "",
                                       asked.message, found);
   control.verdict = holds ? Verdict::pass : Verdict::fail;
-  control.expectation = Expectation::agrees;  // a known discrepancy is no verdict of a control
+  // A negative control never counts as a known discrepancy.
+  control.expectation = Expectation::agrees;
   return control;
 }
 

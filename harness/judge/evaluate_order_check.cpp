@@ -64,11 +64,11 @@ class OrderCheckEvaluator {
   /// case, sets the message of `check_result`.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
-      check_result.message = "a refined level has no finite value";
+      check_result.message = "a refinement level has no finite value";
     } else if (!found_.exact) {
-      check_result.message = "errors require an exact value, which is missing";
+      check_result.message = "no reference states the exact value for the errors";
     } else if (meshes_ < criterion_.meshes) {
-      check_result.message = fmt::format("only {} meshes qualify for the order, {} are required",
+      check_result.message = fmt::format("only {} meshes qualify to fit the order, {} are required",
                                          meshes_, criterion_.meshes);
       if (is_other_solver_) check_result.verdict = Verdict::not_given;
     } else {
@@ -82,7 +82,7 @@ class OrderCheckEvaluator {
     check_result.tolerance = {-limit, limit, true};
     check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
     if (check_result.message.empty())
-      check_result.message = fmt::format("{} meshes qualify for the order", meshes_);
+      check_result.message = fmt::format("{} meshes qualify to fit the order", meshes_);
   }
 
   [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
@@ -120,7 +120,7 @@ class OrderCheckEvaluator {
     const double theory = *found_.theory_order;
     const std::optional<double> fitted = log_log_slope(found_.size, found_.error, qualifies_);
     if (!fitted) {
-      check_result.message = "fewer than two meshes qualify for the order";
+      check_result.message = "fewer than two meshes qualify to fit the order";
       return check_result;
     }
     check_result.computed = *fitted;
@@ -128,7 +128,7 @@ class OrderCheckEvaluator {
         theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? *found_.order[k] : kNaN; },
         check_result);
     check_result.message =
-        fmt::format("{} meshes qualify; the worst order of two successive ones is {}", meshes_,
+        fmt::format("{} meshes qualify; the worst order between two meshes is {}", meshes_,
                     shortest_decimal(farthest));
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;
@@ -200,7 +200,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const OrderCriterion& criterion = *check.order;
   const bool is_other_solver = context.other_solver != nullptr;
   if (is_other_solver && !context.other_solver->element_order) {
-    CheckResult unknown = failed_check_result(check, "the adapter does not state 'element_order'");
+    CheckResult unknown = failed_check_result(check, "the solver states no 'element_order'");
     unknown.verdict = Verdict::not_given;
     return {unknown};
   }

@@ -109,7 +109,8 @@ void compare(const Comparison& c, ValidationVerdict& v) {
   v.verdict = std::abs(*c.difference) <= noise ? kWithinUncertainty : kModelError;
 }
 
-/// Returns the index after the last entry with the same computed value as `first`.
+/// Returns the index after the last consecutive entry whose computed value equals that of entry
+/// `first`.
 std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) {
   const double value = *row[first].simulation;
   std::size_t end = first + 1;
@@ -122,7 +123,8 @@ std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) 
 
 struct Spread {
   double low, high;
-  bool beyond_digits;  ///< the range exceeds the uncertainty of the printed digits
+  /// True: the range of printed values exceeds the uncertainty of the printed digits.
+  bool beyond_digits;
 };
 
 Spread printed(std::span<const Comparison> equal) {
@@ -144,8 +146,8 @@ std::string describe_validation(const Comparison& c, const ValidationVerdict& v)
                      c.unit, *c.difference > 0 ? "high" : "low");
 }
 
-std::string contradiction(const Spread& spread, std::size_t first, std::size_t end,
-                          const std::string& unit) {
+std::string describe_unequal_references(const Spread& spread, std::size_t first, std::size_t end,
+                                        const std::string& unit) {
   return fmt::format(
       "the reference is inconsistent: values {} to {} are equal by symmetry "
       "but printed as {} to {} {}",
@@ -167,7 +169,7 @@ void evaluate_validation_row(std::span<Comparison> row) {
             *c.simulation >= spread.low - noise && *c.simulation <= spread.high + noise;
         if (v->verdict == kModelError && spread.beyond_digits && between) {
           v->verdict = kReferenceInconsistent;
-          v->conclusion = contradiction(spread, first, end, c.unit);
+          v->conclusion = describe_unequal_references(spread, first, end, c.unit);
         } else {
           v->conclusion = describe_validation(c, *v);
         }

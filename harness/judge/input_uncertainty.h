@@ -14,8 +14,8 @@
 /// Source: JCGM 100:2008 (GUM) 4.3.7 and 5.1; JCGM 101:2008 for the sampling.
 namespace trammel::harness {
 
-/// Function that returns the outputs of the model for given offsets of the inputs, in the unit of
-/// each input. Its result is empty if the model has no solution.
+/// Function that returns the outputs of the model for given offsets of the inputs from their
+/// nominal values, in the unit of each input. The result is empty if the model has no solution.
 using Response = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
 
 /// First-order standard uncertainty u of an output f due to the inputs x:

@@ -14,7 +14,7 @@ namespace {
 /// entries.
 constexpr std::size_t kMaxTrackedEntries = 16;
 
-void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
+void add_other_quantities(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
   for (const auto& item : sweep.levels.back().quantities) {
     if (is_error_measure(item.first)) continue;
     if (!contains(tracked_quantities, item.first, &TrackedQuantity::quantity))
@@ -23,8 +23,8 @@ void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& track
 }
 
 /// Returns the value of one entry of a quantity on one refinement level, with its round-off error.
-std::pair<double, double> entry_of(const Quantities& quantities,
-                                   const TrackedQuantity& tracked_quantity, std::size_t index) {
+std::pair<double, double> level_value(const Quantities& quantities,
+                                      const TrackedQuantity& tracked_quantity, std::size_t index) {
   const auto found = quantities.find(tracked_quantity.quantity);
   if (found == quantities.end()) return {kNaN, 0};
   const Quantity& quantity = found->second;
@@ -55,7 +55,7 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
   return all;
 }
 
-results::Number exact_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
+results::Number exact_value_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
   if (tracked_quantity.reference == nullptr ||
       tracked_quantity.reference->unit != unit_of(tracked_quantity.quantity)) {
     return std::nullopt;
@@ -85,7 +85,7 @@ Convergence track_entry(const Sweep& sweep, const JsonView& place,
   }
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   for (const results::SweepLevel& level : sweep.levels) {
-    const auto [value, roundoff] = entry_of(level.quantities, tracked_quantity, index);
+    const auto [value, roundoff] = level_value(level.quantities, tracked_quantity, index);
     series.parameter.push_back(level.parameter);
     series.size.push_back(element_size(measures, level.parameter));
     series.values.push_back(value);
@@ -93,7 +93,7 @@ Convergence track_entry(const Sweep& sweep, const JsonView& place,
   }
   series.is_error = tracked_quantity.is_error;
   series.exact =
-      tracked_quantity.is_error ? results::Number(0) : exact_of(tracked_quantity, position);
+      tracked_quantity.is_error ? results::Number(0) : exact_value_of(tracked_quantity, position);
   if (series.exact && tracked_quantity.reference) series.reference = tracked_quantity.reference->id;
   return series;
 }
@@ -126,7 +126,7 @@ std::vector<Convergence> sweep_convergence(const Sweep& sweep, const Document& d
   std::vector<TrackedQuantity> tracked_quantities =
       place.has("quantities") ? quantities_of_sweep(place["quantities"], references)
                               : quantities_of_checks(document, checks, references);
-  if (tracked == TrackedQuantities::all) add_everything_else(sweep, tracked_quantities);
+  if (tracked == TrackedQuantities::all) add_other_quantities(sweep, tracked_quantities);
   std::vector<Convergence> found;
   for (const TrackedQuantity& tracked_quantity : tracked_quantities) {
     if (is_count(tracked_quantity.quantity)) continue;

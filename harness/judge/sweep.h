@@ -29,7 +29,8 @@ enum class TrackedQuantities {
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
 /// Returns one convergence study for each entry of the tracked quantities of a sweep.
-/// @param element_order  order of another solver's elements, which replaces the theoretical order
+/// @param element_order  order of convergence of another solver's elements, which replaces the
+///   theoretical order
 [[nodiscard]] std::vector<Convergence> sweep_convergence(
     const Sweep& sweep, const Document& document, const std::vector<Check>& checks,
     const References& references, TrackedQuantities tracked, results::Number element_order = {});
@@ -54,7 +55,8 @@ struct TrackedQuantity {
                                                                 const std::vector<Check>& checks,
                                                                 const References& references);
 
-/// Returns true if a reference (proved, exact or computed) can measure the discretization error.
+/// Returns true if the discretization error can be measured against a reference, which must be of
+/// the kind proved, exact or computed.
 [[nodiscard]] bool is_exact(const references::Reference& reference);
 
 }  // namespace trammel::harness

@@ -15,8 +15,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Records the deflection of P from the nominal path. If the nominal path has a tangent at every
-/// sample, also records the components along and across the path.
+/// Records the deflection of the platform point P from the nominal path. If the nominal path has a
+/// tangent at every sample, also records the components along and across the path.
 void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const bool moves = solution.tangential_error.allFinite();
   for (solver::Index i = 0; i < solution.deflection.rows(); ++i) {
@@ -58,8 +58,8 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
     record.add("energy_drift", (energy.total() - solution.energy.front().total()) / size);
 }
 
-/// Records the distance between the positions of P in the solutions `a` and `b` at each sample,
-/// relative to the largest deflection of P in `a`.
+/// Records the distance between the positions of the platform point P in the solutions `a` and `b`
+/// at each sample, relative to the largest deflection of P in `a`.
 void record_distance(const char* name, const Eigen::MatrixX2d& a, const Eigen::MatrixX2d& b,
                      Recorder& record) {
   const double size = a.rowwise().norm().maxCoeff();
@@ -74,8 +74,9 @@ solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& option
                             : solver::solve_elastodynamics(options);
 }
 
-/// Records the change of the deflection if the time step is halved. If the platform is at rest,
-/// also records the error of the time integration, compared with exact modal superposition.
+/// Records the change of the platform's deflection if the time step is halved. If the platform is
+/// at rest, also records the error of the time integration, compared with exact modal
+/// superposition.
 void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
@@ -155,7 +156,7 @@ solver::ElastodynamicsOptions read_elastodynamics_options(const JsonView& analys
   if (!case_model.path)
     throw analysis.error("elastodynamics requires a model with 'trajectory' (got 'pose')");
   if (!loads_at_P_only(case_model))
-    throw analysis.error("elastodynamics supports only loads at P (got a load at C1, C2 or C3)");
+    throw analysis.error("elastodynamics supports only loads at node P (got C1, C2 or C3)");
   solver::ElastodynamicsOptions options = read_model_independent_options(analysis);
   const solver::Effects effects = case_model.effects;
   options.design = solver::restrict_effects(*case_model.manipulator, effects);
@@ -171,7 +172,7 @@ solver::ElastodynamicsOptions read_elastodynamics_options(const JsonView& analys
     const bool rates = approximations->get("transformation_rate_terms", false);
     if (rates && !approximations->get("elastic_inertia", true))
       throw(*approximations)["transformation_rate_terms"].error(
-          "the terms are part of the elastic inertia; expected also 'elastic_inertia': true");
+          "these terms belong to the elastic inertia; expected also 'elastic_inertia': true");
   }
   if (options.modal_superposition && !solver::is_at_rest(options.path))
     throw analysis["modal_superposition"].error(
@@ -212,7 +213,7 @@ StepResult analyze_elastodynamics(const JsonView& analysis, const CaseModel& cas
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);
-  // A mechanism with free joints has no quasi-static position.
+  // A mechanism with free active joints has no quasi-static position.
   const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
   if (options.elastic_inertia && slow.allFinite())
     record_distance("dynamic_to_quasi_static_difference", slow, solution.deflection, record);

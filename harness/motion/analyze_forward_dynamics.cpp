@@ -13,9 +13,9 @@ double turned(double from, double to) {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-/// Records the drift of the energy, relative to the largest kinetic energy. The energy is kinetic
-/// plus potential energy minus the work of torques and load since the start. It is conserved,
-/// because constant torques and a constant load do work that depends only on the pose.
+/// Records the drift of the energy, relative to the largest kinetic energy. The energy is the
+/// kinetic plus potential energy, minus the work of torques and load since the start. This sum is
+/// conserved, because constant torques and a constant load do work that depends only on the pose.
 void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
                    const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
   std::vector<double> energies;
@@ -46,7 +46,7 @@ StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& c
   if (!case_model.path)
     throw analysis.error("forward dynamics requires a model with 'trajectory' (got 'pose')");
   if (!loads_at_P_only(case_model))
-    throw analysis.error("forward dynamics supports only loads at P (got a load at C1, C2 or C3)");
+    throw analysis.error("forward dynamics supports only loads at node P (got C1, C2 or C3)");
   const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   const bool given = analysis.has("torque_N_m");
   Eigen::Vector3d constant = Eigen::Vector3d::Zero();
@@ -79,7 +79,7 @@ StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& c
     record.add("motion_velocity_x_m_per_s", moved.velocity.x());
     record.add("motion_velocity_y_m_per_s", moved.velocity.y());
     record.add("motion_velocity_phi_rad_per_s", moved.velocity.z());
-    if (given) continue;  // torques stated in the case do not follow the path
+    if (given) continue;  // the path is not followed under torques stated in the case
     const solver::TrajectoryPoint& nominal = case_model.motion[step];
     record.add("position_error_m",
                std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));

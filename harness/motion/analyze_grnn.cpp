@@ -42,7 +42,7 @@ struct GrnnSamples {
 /// Inputs are the torques of the inverse dynamics. Outputs are the angles and velocities of the
 /// active joints. Angles are continuous in time: they do not jump by 2 pi.
 struct PathSamples {
-  solver::Outcome outcome;  ///< outcome of the first point without a solution
+  solver::Outcome outcome;  ///< outcome of the first path point without a solution
   GrnnSamples samples;
 };
 
@@ -108,7 +108,7 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
 /// @param place  "flexible_links" of the case
 /// @throws InputError  if the manipulator cannot track the path (see `add_tracking`), or if the
 ///   points of the path are not evenly spaced in time.
-void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
+void sample_flexible_motion(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
   solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   large_motion.strain_rate_damping = place.get("strain_rate_damping_s", 0.0);
@@ -208,9 +208,9 @@ Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<solver::Index
   return all(which, Eigen::all);
 }
 
-void record_part(const std::string& part, const std::vector<solver::Index>& which,
-                 const GrnnSamples& samples, const Eigen::MatrixXd& error,
-                 const OutputScales& scales, Recorder& record) {
+void record_sample_errors(const std::string& part, const std::vector<solver::Index>& which,
+                          const GrnnSamples& samples, const Eigen::MatrixXd& error,
+                          const OutputScales& scales, Recorder& record) {
   if (which.empty()) return;
   const Eigen::MatrixXd own = rows(error, which);
   for (solver::Index j = 0; j < own.cols(); ++j) {
@@ -244,8 +244,8 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
   against("nearest", 1e-300);
 }
 
-/// Measures the computing time of predictions at every point of the path, in a batch and one by
-/// one. Also measures the computations that the network replaces: forward dynamics to the next
+/// Measures the computing time of predictions at every point of the path, both in one batch and one
+/// by one. Also measures the computations that the network replaces: forward dynamics to the next
 /// point of the path, and inverse dynamics.
 std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
                                                  const solver::RigidManipulator& manipulator,
@@ -342,7 +342,7 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   StepResult result;
   PathSamples path = samples_of_path(manipulator, case_model);
   const auto flexible = analysis.find("flexible_links");
-  if (flexible && path.outcome.solved()) let_links_bend(*flexible, case_model, path);
+  if (flexible && path.outcome.solved()) sample_flexible_motion(*flexible, case_model, path);
   result.outcome = path.outcome;
   if (!result.outcome.solved()) return result;
   const GrnnSamples& samples = path.samples;
@@ -374,8 +374,8 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   const OutputScales scales(samples.outputs);
   record_predictions(samples, predicted, trains, record);
   record_positions(manipulator.geometry, case_model, predicted, record);
-  record_part("training", parts.training, samples, error, scales, record);
-  record_part("held_out", parts.held_out, samples, error, scales, record);
+  record_sample_errors("training", parts.training, samples, error, scales, record);
+  record_sample_errors("held_out", parts.held_out, samples, error, scales, record);
   if (!parts.held_out.empty() && !spline)
     record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
                  record);

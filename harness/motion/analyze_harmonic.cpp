@@ -132,8 +132,8 @@ class HarmonicScene {
     return found.frequency;
   }
 
-  /// Returns true if the amplitude of the output is unbounded at a natural frequency. Near the
-  /// frequency, such an amplitude is proportional to 1 / (distance in frequency).
+  /// Returns true if the amplitude of the output is unbounded at a natural frequency. Near such a
+  /// frequency f0, the amplitude at a frequency f is proportional to 1 / |f - f0|.
   [[nodiscard]] bool is_pole(double frequency, const Output& output) const {
     const double unit = frequency > 0 ? frequency : high;
     const auto size_at = [&](double distance) {

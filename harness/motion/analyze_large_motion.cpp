@@ -170,7 +170,8 @@ void require_path_to_the_end(const JsonView& analysis, const solver::Path& path)
   }
 }
 
-/// Records the deflection of P from its position on the same manipulator with rigid links.
+/// Records the deflection of the platform point P from its position on the same manipulator with
+/// rigid links.
 void record_deflection(const GeometricallyExactSystem& system, const State& state,
                        const solver::Path& path, Recorder& record) {
   const solver::Index p = system.model().find_node("P");

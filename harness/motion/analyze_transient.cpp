@@ -69,7 +69,7 @@ solver::TimeScheme read_scheme(const JsonView& transient) {
                                       : solver::average_acceleration();
 }
 
-bool superposes(const JsonView& transient) {
+bool uses_modal_superposition(const JsonView& transient) {
   return transient.has("method") && transient["method"].json() == "modal-superposition";
 }
 
@@ -149,10 +149,10 @@ class Motion {
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
     for (const double t : history_.time) {
-      const bool integrated = !superposes(transient_) && t > history_.time.front();
+      const bool integrated = !uses_modal_superposition(transient_) && t > history_.time.front();
       history_.load_factor.push_back(factor_.at(integrated ? factor_.step_end_load_time(t) : t));
     }
-    if (superposes(transient_)) {
+    if (uses_modal_superposition(transient_)) {
       superpose_modes();
     } else {
       integrate();
@@ -285,9 +285,9 @@ class Motion {
   MotionHistory history_;
 };
 
-/// Returns the part of the initial velocity that a reduced basis cannot represent [-]. The part is
-/// relative to the initial velocity of the full model, in the norm of kinetic energy. The result is
-/// 0 if there is no initial velocity.
+/// Returns the fraction of the initial velocity that a reduced basis cannot represent: the norm of
+/// this part, relative to that of the full initial velocity. The norm is that of kinetic energy.
+/// Returns 0 if there is no initial velocity.
 double unrepresented_velocity(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");
@@ -326,7 +326,7 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
         system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
     elastic.load_factor = motion.load_factor[solver::to_size(sample)];
     elastic.constraint_forces =
-        constraint_multipliers(system, elastic);  // these forces include damping
+        constraint_multipliers(system, elastic);  // these constraint forces include damping forces
     elastic.u = system.T * motion.q.col(sample);
     if (late) late->set_loads(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
     postprocess(system, elastic, state);
@@ -347,9 +347,9 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
-/// Warns if a reduced basis omits over 1 % of the initial velocity. A smaller part
-/// is invisible in a plot.
-void warn_of_basis(double missing, std::vector<Warning>& warnings) {
+/// Warns if a reduced basis omits over 1 % of the initial velocity. A smaller omission is invisible
+/// in a plot of the motion.
+void warn_of_reduced_basis(double missing, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 0.01;
   if (!(missing > kNoticed)) return;
   add_warning(
@@ -397,7 +397,7 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
   }
   if (with_forces) warn_of_redundant_constraints(system, result.warnings);
   warn_of_taper(system.model, result.warnings);
-  if (full) warn_of_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
+  if (full) warn_of_reduced_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyRecorder energy;
   std::optional<solver::LateStrain> late;

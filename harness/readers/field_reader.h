@@ -86,8 +86,8 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// Reads a mass or moment of inertia. A text instead of a number makes `value`
-  /// empty.
+  /// Reads a mass or moment of inertia. If the case contains a text instead of a number, `value`
+  /// becomes empty.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();

@@ -118,7 +118,7 @@ void read_members(const JsonView& model, const SymbolTable& symbols, solver::Mod
   }
 }
 
-void require_others(const JsonView& place, const solver::RigidBody& body) {
+void require_other_reference(const JsonView& place, const solver::RigidBody& body) {
   const auto same = std::ranges::find(body.attached, body.reference);
   if (same == body.attached.end()) return;
   throw place["nodes"][static_cast<std::size_t>(same - body.attached.begin())].error(
@@ -247,7 +247,7 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
   read_members(model, symbols, structure);
   read_plates(model, symbols, structure);
   structure.rigid_bodies =
-      read_parts<solver::RigidBody>(model, "rigid_bodies", symbols, require_others);
+      read_parts<solver::RigidBody>(model, "rigid_bodies", symbols, require_other_reference);
   structure.masses = read_parts<solver::PointMass>(model, "point_masses", symbols);
   structure.springs = read_parts<solver::Spring>(model, "springs", symbols);
   read_supports(model, symbols, structure);
@@ -265,7 +265,8 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
 
 namespace {
 
-/// Positions along a chain of members, for a parameter s from 0 to 1.
+/// Positions along a chain of members (straight line or arc), for a parameter s from 0 at its start
+/// to 1 at its end.
 class ChainPath {
  public:
   ChainPath(const MemberChain& chain, const Eigen::Vector2d& start, const Eigen::Vector2d& end)

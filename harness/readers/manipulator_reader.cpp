@@ -7,7 +7,7 @@ namespace {
 
 /// Requires exactly one of two alternative keys.
 /// @returns true if the first key is present
-bool has_first(const JsonView& place, const char* first, const char* second) {
+bool require_one_of_two_keys(const JsonView& place, const char* first, const char* second) {
   if (place.has(first) == place.has(second))
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
                       (place.has(first) ? "both; the value null removes a key)" : "none)"));
@@ -18,10 +18,10 @@ solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
   const JsonView platform = manipulator["platform"];
   const FieldReader reader(manipulator), links(manipulator["links"]);
   solver::ManipulatorGeometry geometry;
-  if (has_first(manipulator, "base_side_m", "base_m"))
+  if (require_one_of_two_keys(manipulator, "base_side_m", "base_m"))
     geometry.base = solver::equilateral_base(manipulator.number("base_side_m"));
   reader.optional("base_m", geometry.base);
-  if (has_first(platform, "side_m", "vertices_m"))
+  if (require_one_of_two_keys(platform, "side_m", "vertices_m"))
     geometry.platform = solver::equilateral_platform(platform.number("side_m"));
   FieldReader(platform).optional("vertices_m", geometry.platform);
   links.required("proximal_length_m", geometry.proximal);
@@ -142,7 +142,7 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
 PlatformMotion read_platform_motion(const JsonView& model,
                                     const solver::ManipulatorGeometry& geometry) {
   PlatformMotion motion;
-  const bool single = has_first(model, "pose", "trajectory");
+  const bool single = require_one_of_two_keys(model, "pose", "trajectory");
   if (single) {
     motion.points = {{0, read_pose(model["pose"])}};
   } else {

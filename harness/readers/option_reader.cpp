@@ -121,7 +121,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
     for (const char* key : {"links", "platform"})
       if (parameter.has(key))
         throw parameter[key].error(
-            "expected no 'links' and no 'platform': this property is a property of neither");
+            "expected no 'links' and no 'platform': neither has the property to be varied");
     return read;
   }
   read.platform = parameter.get("platform", false);

@@ -51,8 +51,8 @@ struct CostSetting {
 
   /// Returns true if the error and the time of the setting were measured.
   [[nodiscard]] bool is_measured() const { return status == "measured"; }
-  /// Returns true if the setting failed, diverged or timed out. The caption of the figure of error
-  /// and time states the number of such settings.
+  /// Returns true if the setting failed, diverged or timed out. The caption of the figure that
+  /// plots error against time states the number of such settings.
   [[nodiscard]] bool has_no_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }
@@ -92,7 +92,7 @@ struct CostStudy {
 };
 
 struct CostStudies {
-  std::string sweep;  ///< "quick" or "full"
+  std::string sweep;  ///< measured selection of settings: "quick" or "full"
   std::size_t seed = 0, repeats = 0;
   double equal_within = 0, diverged_above = 0;
   std::vector<CostStudy> studies;

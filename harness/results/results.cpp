@@ -147,14 +147,14 @@ std::vector<Json*> references_in(Json& json) {
 const std::array<SharedTexts, 4> kSharedTexts = {{
     {"names",
      {"name", "quantity", "reference", "against_variant", "against_quantity"},
-     "a name for each index in a check",
+     "a name for each index used by checks",
      checks_in},
-    {"reasons", {"why", "title", "message"}, "a text for each index in a check", checks_in},
+    {"reasons", {"why", "title", "message"}, "a text for each index used by checks", checks_in},
     {"citations",
      {"citation", "doi", "place"},
-     "a text for each index in a reference",
+     "a text for each index used by references",
      references_in},
-    {"notes", {"notes"}, "a note for each index in a reference", references_in},
+    {"notes", {"notes"}, "a note for each index used by references", references_in},
 }};
 
 void share_texts(Json& json, const SharedTexts& shared) {
@@ -172,7 +172,7 @@ void share_texts(Json& json, const SharedTexts& shared) {
 }
 
 /// Replaces indices in JSON objects by the texts with these indices in the shared list.
-void give_texts(Json& json, const SharedTexts& shared) {
+void restore_shared_texts(Json& json, const SharedTexts& shared) {
   if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;
   const auto texts = from_json<std::vector<std::string>>(json.at(shared.list));
@@ -223,7 +223,7 @@ bool CoverageRow::is_verified() const {
 }
 
 Results read_results(Json json) {
-  for (const SharedTexts& shared : kSharedTexts) give_texts(json, shared);
+  for (const SharedTexts& shared : kSharedTexts) restore_shared_texts(json, shared);
   auto results = from_json<Results>(json);
   complete_and_validate(results);
   return results;

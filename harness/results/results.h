@@ -22,7 +22,7 @@ struct Environment {
   /// Number of runs that were read from the store, because an earlier call with the same program
   /// and input computed them.
   int stored_runs = 0;
-  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version of each library
 };
 
 /// A plot requested by a case: quantities `y` over the quantity `x`, for some variants of the case.
@@ -205,8 +205,8 @@ struct History {
   std::vector<HistoryCall> calls;  ///< oldest first
   std::int64_t since = 0;  ///< id of the green call that is the baseline of changes; 0: none
   std::vector<HistoryChange> changes;  ///< changes of verdicts first, then of values
-  std::vector<HistoryChange> work;     ///< changes of counted work (exact)
-  std::vector<HistoryDrift> drifts;    ///< drifts, largest first
+  std::vector<HistoryChange> work;     ///< changes of counted work, compared without tolerance
+  std::vector<HistoryDrift> drifts;    ///< slow changes of values over several calls, largest first
 };
 
 struct Results {
@@ -223,7 +223,8 @@ struct Results {
   std::vector<EffectScene> effect_scenes;
   std::optional<History> history;  ///< earlier calls; the newest call produced these results
   std::string store;               ///< folder of stored runs, relative to the file's folder
-  std::string missing;             ///< message about data missing from the store; not written
+  /// Message about data missing from the store; not written to results.json.
+  std::string missing;
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns the reference with this id; nullptr for an unknown or empty id.

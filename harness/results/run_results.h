@@ -51,7 +51,7 @@ struct Check {
   /// Statistic of the quantity that is judged (empty: single entries); variant and quantity with
   /// which the quantity is compared (empty: none).
   std::string statistic, against_variant, against_quantity;
-  std::optional<int> index;  ///< index of the entry, from 0
+  std::optional<int> index;  ///< index of the judged entry of the quantity, from 0
   Number computed, expected, difference;
   std::optional<Tolerance> tolerance;
   Expectation expectation = Expectation::agrees;
@@ -78,7 +78,7 @@ struct Convergence {
   std::string reference;  ///< id of the reference with the exact value
   int index = 0;
   Numbers parameter;         ///< values of the refined parameter, such as elements
-  Numbers values, roundoff;  ///< values, and relative round-off
+  Numbers values, roundoff;  ///< values, and their relative round-off errors
   std::vector<double> size;  ///< element size h, up to a common factor; not written
   Number exact;
   bool is_error = false;  ///< true: the values are errors, and `exact` is 0; not written
@@ -110,7 +110,8 @@ struct Convergence {
 
 struct SweepLevel {
   double parameter = 0;
-  harness::Quantities quantities;  ///< quantities of the level; empty without a solution
+  /// Quantities computed on the refinement level; empty without a solution.
+  harness::Quantities quantities;
 };
 
 /// Results of one computation at all levels of a mesh or time step refinement.
@@ -126,7 +127,8 @@ struct UncertainInput {
   std::vector<std::string> pointers;
   /// Half-width of the uniform distribution of the input, in the unit of the input.
   Number half_width;
-  bool nominal = false;  ///< a round design value, uncertain only in Comparison::all_inputs
+  /// True: a rounded design value, which counts as uncertain only in Comparison::all_inputs.
+  bool nominal = false;
 };
 
 /// Verdict of a validation comparison after ASME V&V 20.
@@ -164,11 +166,11 @@ struct Uncertainty {
   std::vector<Comparison> comparisons;
 };
 
-using Point = std::pair<double, double>;  ///< (x, y) [m]; NaN: not drawn
+using Point = std::pair<double, double>;  ///< coordinates (x, y) [m]; NaN: the point is not drawn
 
 struct Joint {
   int node = 0;
-  std::string kind;  ///< active, hinged, welded, rigid, sprung or support
+  std::string kind;  ///< type: active, hinged, welded, rigid, sprung or support
   std::string name;
 };
 
@@ -189,7 +191,7 @@ struct Pose {
 struct DrawnForce {
   int node = 0;
   double x = 0, y = 0;
-  std::string unit;  ///< N or N/m
+  std::string unit;  ///< unit of the force: N or N/m
 };
 
 /// Drawing of the model: mesh (nodes, members, triangles), joints, and deformed or mode shapes.
@@ -234,10 +236,10 @@ struct ErrorEstimate {
   /// displacements [unit]. If the scale is missing, the error is relative to each value.
   Number scale;
   Number order;  ///< lowest order of all discretizations; missing: the values are exact in theory
-  /// False if the mesh or step is too coarse for the order `order`. The estimate then assumes a
-  /// lower order.
+  /// False if the mesh or time step is too coarse for convergence with the order `order`. The
+  /// estimate then assumes a lower order.
   bool asymptotic = true;
-  std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
+  std::string setting;  ///< JSON pointer of the mesh or step key that affects the error most
 
   /// Returns the half-width of the error band about one of the quantity's values [unit].
   [[nodiscard]] Number error_half_width(std::size_t index, double value) const;
@@ -250,13 +252,15 @@ struct AccuracyStep {
   double cpu_s = 0;
 };
 
-/// Discretization errors of a run, estimated from coarser or finer companion computations. Errors
-/// of the input and of the model are not included.
+/// Discretization errors of a run, estimated from further computations with a coarser or finer mesh
+/// or time step (companions). Errors of the input and of the model are not included.
 struct ErrorEstimates {
   std::vector<ErrorEstimate> quantities;
-  std::string companions;  ///< for example "half the elements; twice the step"
-  std::string reason;      ///< reason for a missing estimate; empty: there is an estimate
-  Counters counters;       ///< counted work of the companions
+  /// Changes of the discretization for the coarser or finer computations, for example "half the
+  /// elements; twice the step".
+  std::string companions;
+  std::string reason;  ///< reason for a missing estimate; empty: there is an estimate
+  Counters counters;   ///< counted work of the coarser or finer computations
   /// Discretizations tried for the option --accuracy, coarse to fine; the last one is this run.
   std::vector<AccuracyStep> search;
 
@@ -284,7 +288,7 @@ struct RowProbabilities {
   Number discrepancy, log_evidence, entropy_bits;
   Numbers printed;
   int readings = 0, classes = 0, credible_classes = 0;
-  std::vector<ReadingClass> leading;  ///< most probable first
+  std::vector<ReadingClass> leading;  ///< classes of readings, most probable first
   std::vector<FurtherNumber> further_numbers;
 };
 

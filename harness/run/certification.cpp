@@ -11,7 +11,8 @@ namespace trammel::harness {
 namespace {
 
 constexpr double kAllDigits = 16;
-constexpr double kClear = 10;  ///< ratio of tolerance to noise below which a tolerance is tight
+/// A tolerance below this multiple of the noise (see certification.h) is tight.
+constexpr double kClear = 10;
 
 /// Returns true if the run was solved, or if the solver reported a singular matrix or an iteration
 /// without convergence.

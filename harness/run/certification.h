@@ -17,7 +17,8 @@ struct Configuration {
 
 struct ConfigurationRow {
   std::string name;
-  /// Number of checks judged in both configurations, and number judged in only one of them.
+  /// Number of checks judged in the first and in this configuration, and number of checks judged in
+  /// only one of these two.
   std::size_t checks = 0, missing = 0;
   /// Numbers of digits that agree with the first configuration: minimum and median over all judged
   /// numbers.

@@ -234,7 +234,7 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
   return found;
 }
 
-bool rests_on(const JsonView& interpretation, const Case& test_case) {
+bool uses_case(const JsonView& interpretation, const Case& test_case) {
   if (interpretation.has("case")) return interpretation.text("case") == test_case.id();
   for (const auto& [name, check] : JsonView(test_case.document).entries("checks")) {
     if (interpretation.has("check") && matches(name, interpretation.text("check"))) return true;
@@ -332,7 +332,7 @@ std::vector<Case> cases_used_by(const Document& claim_set, const std::vector<Cas
   std::vector<Case> cases;
   std::ranges::copy_if(catalogue, std::back_inserter(cases), [&](const Case& test_case) {
     return std::ranges::any_of(interpretations, [&](const JsonView& interpretation) {
-      return rests_on(interpretation, test_case);
+      return uses_case(interpretation, test_case);
     });
   });
   return cases;

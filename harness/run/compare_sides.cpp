@@ -27,31 +27,34 @@ using results::ComparedValue;
 using results::Number;
 using results::Numbers;
 using results::SideComparison;
-using Runs =
-    std::vector<const results::Run*>;  ///< runs with the same name, one per side; null: missing
+/// Runs with the same name, one per compared set of results (side); null: missing.
+using Runs = std::vector<const results::Run*>;
 
 /// Smallest assumed round-off error, relative to the largest value of a group of quantities (see
-/// `series_of`).
+/// `scale_group_name`).
 constexpr double kRoundoff = 1e-9;
 /// Largest relative round-off error that is taken from the estimates stored with a run. Larger
 /// estimates are ignored, because they are not due to round-off.
 constexpr double kLargestRoundoff = 1e-6;
-constexpr std::size_t kFewEntries = 6;  ///< of a longer quantity, only the largest change is shown
-constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series
+/// Largest number of entries of a quantity that are all shown. Of a longer quantity, only the entry
+/// with the largest change is shown.
+constexpr std::size_t kFewEntries = 6;
+/// Maximum number of runs whose series are kept for drawing.
+constexpr std::size_t kDrawnRuns = 8;
 
 /// Returns the name of the group of quantities that share a scale. A group contains all quantities
 /// with the same unit, but poses and each dimensionless quantity have separate groups.
-std::string series_of(const std::string& name) {
+std::string scale_group_name(const std::string& name) {
   const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
   return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
 }
 
-/// Returns the largest magnitude of each group of quantities over all sides.
+/// Returns the largest magnitude of each group of quantities over all compared runs.
 std::map<std::string, double> series_scales(const Runs& runs) {
   std::map<std::string, double> scales;
   for (const results::Run* run : runs)
     for (const auto& [name, quantity] : run->quantities)
-      for (double& scale = scales[series_of(name)]; const Number value : quantity.values)
+      for (double& scale = scales[scale_group_name(name)]; const Number value : quantity.values)
         scale = std::max(scale, std::abs(value.value_or(0)));
   return scales;
 }
@@ -144,7 +147,8 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     for (const auto& quantity : run->quantities)
       if (!is_error_measure(quantity.first)) names.insert(quantity.first);
   const std::map<std::string, double> scales = series_scales(runs);
-  std::map<std::string, std::vector<std::string>> absent;  // missing quantities, by side
+  // Missing quantities, by the label of the results that lack them.
+  std::map<std::string, std::vector<std::string>> absent;
   for (const std::string& name : names) {
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
@@ -156,20 +160,21 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     } else if (std::set(sizes.begin(), sizes.end()).size() > 1) {
       found.remarks.push_back(name + " has " + join(sizes, "and") + " entries");
     } else {
-      std::ranges::move(compare_entries(name, runs, scales.at(series_of(name))),
+      std::ranges::move(compare_entries(name, runs, scales.at(scale_group_name(name))),
                         std::back_inserter(found.numbers));
     }
   }
   for (const auto& [sides, missing] : absent)
-    found.remarks.push_back("not in " + sides + ": " + join(missing, "and"));
+    found.remarks.push_back("missing from " + sides + ": " + join(missing, "and"));
 }
 
-std::vector<std::size_t> from_one(std::vector<std::size_t> numbers) {
+std::vector<std::size_t> count_from_one(std::vector<std::size_t> numbers) {
   for (std::size_t& number : numbers) ++number;
   return numbers;
 }
 
-/// Matches the modes of all sides with the modes of the first side; empty if shapes are missing.
+/// Matches the modes of all compared runs with those of the first run; empty if mode shapes are
+/// missing.
 std::vector<ComparedModes> compare_modes(const Runs& runs) {
   std::vector<ComparedModes> rows;
   const std::vector<double>& known = *runs.front()->quantity("frequency_Hz");
@@ -185,14 +190,14 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
       largest = std::max(largest, std::abs(first));
       if (s == 1) {
         rows.emplace_back();
-        rows.back().modes = {from_one(match.a)};
+        rows.back().modes = {count_from_one(match.a)};
         rows.back().values = {first};
         rows.back().last = {Number()};
         rows.back().errors = {runs.front()->error_half_width("frequency_Hz", match.a.front())};
         rows.back().alike = {1.0};
       }
       ComparedModes& found = rows.at(row++);
-      found.modes.push_back(from_one(match.b));
+      found.modes.push_back(count_from_one(match.b));
       const bool there = !match.b.empty();
       const double low = there ? b.frequency[match.b.front()] : 0;
       const double high = there ? b.frequency[match.b.back()] : 0;
@@ -211,7 +216,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
 }
 
 /// Compares the frequencies of modes with similar shapes instead of equal numbers, if frequencies
-/// have changed or the sides are variants.
+/// have changed or if variants are compared.
 void match_by_shape(const Runs& runs, bool are_variants, ComparedRun& found) {
   const auto by_number = [](const ComparedNumber& number) {
     return number.quantity == "frequency_Hz" || number.quantity == "frequency_gap";
@@ -230,7 +235,7 @@ void match_by_shape(const Runs& runs, bool are_variants, ComparedRun& found) {
 }
 
 /// Adds remarks about changed statuses of runs, and about at most three changed verdicts of checks
-/// per side.
+/// per compared run.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   Entries first;
   add_entries(*runs.front(), found.name, first);
@@ -249,7 +254,7 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
   }
 }
 
-bool same_bits(const Runs& runs) {
+bool are_bit_identical(const Runs& runs) {
   const auto number = [](double value) { return Number(value); };  // makes NaN equal to NaN
   return std::ranges::all_of(runs, [&](const results::Run* run) {
     const auto same = [&](const auto& a, const auto& b) {
@@ -267,7 +272,7 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   ComparedRun found;
   found.name = name;
   found.info = std::move(info);
-  if (are_variants || !same_bits(runs)) add_numbers(runs, labels, found);
+  if (are_variants || !are_bit_identical(runs)) add_numbers(runs, labels, found);
   match_by_shape(runs, are_variants, found);
   if (!are_variants) add_verdicts(runs, labels, found);
   found.changed = !found.remarks.empty();
@@ -296,7 +301,8 @@ std::map<std::string, double> errors_of(const std::string& name, const results::
   return errors;
 }
 
-/// Computes median and largest error of each side, over the reference values that all sides use.
+/// Computes the median and the largest error of each compared set of results (side), over the
+/// reference values that all sets use.
 void compare_errors(const std::vector<std::map<std::string, double>>& all,
                     std::vector<ComparedSide>& sides) {
   std::vector<std::vector<double>> errors(sides.size());
@@ -317,7 +323,7 @@ ComparedSide side_of(const Side& side) {
   const results::Environment& environment = side.results.environment;
   found.label = side.label;
   found.runs = side.results.runs.size();
-  if (side.document) return found;  // this call of trammel computed the side
+  if (side.document) return found;  // this call of trammel computed these results
   found.commit = environment.commit;
   found.date = environment.date;
   found.processor = environment.processor;
@@ -344,7 +350,7 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
 
 /// Returns a text about the largest change of a mode of the run. If no mode has changed, describes
 /// the largest change of a number. If no number has changed, returns the first remark.
-std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
+std::string describe_change(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
   if (mode != run.modes.end() && mode->changed)
@@ -367,7 +373,8 @@ std::string conclusion_of_runs(const SideComparison& comparison) {
   if (comparison.changed == 0) return "Nothing has changed: " + same;
   const ComparedRun& first = comparison.runs.front();
   return fmt::format("{} of {} changed beyond round-off, most {}: {}; {}", comparison.changed,
-                     count_of(all, "run"), first.name, most_changed(first, comparison.sides), same);
+                     count_of(all, "run"), first.name, describe_change(first, comparison.sides),
+                     same);
 }
 
 /// Summarizes the differences between variants.
@@ -384,11 +391,11 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
   if (count == 0 && run.remarks.empty())
     return other + " and " + sides.front().label + " differ by no more than round-off";
   return fmt::format("{} against {}: {} of {} numbers differ beyond round-off, most {}", other,
-                     sides.front().label, count, all, most_changed(run, sides));
+                     sides.front().label, count, all, describe_change(run, sides));
 }
 
-/// Groups the runs of all sides by name. Runs that this call of the program has computed form one
-/// group, because the names of compared variants differ.
+/// Groups the runs of all compared sets of results by name. Runs that this call of the program has
+/// computed form one group, because the names of compared variants differ.
 std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   std::map<std::string, Runs> by_name;
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -442,7 +449,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
     }
     ComparedRun found;
     found.name = name;
-    found.remarks = {"not in " + join(without, "and")};
+    found.remarks = {"missing from " + join(without, "and")};
     found.changed = true;
     if (without.empty()) {
       lost += load_series(runs, sides);
@@ -455,7 +462,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
       }
       found = compare_runs(name, loaded, labels, are_variants,
                            sides.front().results.case_info(runs.front().case_id));
-      if (same_bits(loaded) && !found.changed && !are_variants) {
+      if (are_bit_identical(loaded) && !found.changed && !are_variants) {
         ++comparison.same;
         continue;
       }

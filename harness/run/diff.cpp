@@ -20,7 +20,7 @@ std::string entry_name(const results::Check& check) {
 
 /// Returns the largest change that counts as round-off: 1e-9 of the value or 1e-6 of its tolerance,
 /// whichever is larger. For diagnostic quantities, such as residuals, every change is round-off.
-double noise_of(const results::Check& check) {
+double roundoff_threshold(const results::Check& check) {
   if (is_error_measure(check.quantity)) return HUGE_VAL;
   double width = 0;
   if (check.tolerance)
@@ -49,8 +49,8 @@ void add_entries(const results::Run& run, const std::string& name, Entries& entr
     const std::string common = name + " " + entry_name(check);
     std::string unique = common;
     for (int n = 2; entries.count(unique) > 0; ++n) unique = fmt::format("{} #{}", common, n);
-    entries.emplace(unique,
-                    Entry{to_string(check.verdict), check.computed, noise_of(check), &run, &check});
+    entries.emplace(unique, Entry{to_string(check.verdict), check.computed,
+                                  roundoff_threshold(check), &run, &check});
   }
 }
 

@@ -120,9 +120,10 @@ bool is_failure(const results::Check& check) {
          check.verdict == results::Verdict::not_run;
 }
 
-using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< records of an entry by call id
+/// Records of a run or check entry, by the id of the call.
+using Course = std::vector<std::pair<std::int64_t, Entry>>;
 
-/// Returns the records of each entry, by the name of the entry.
+/// Returns the records of each compared item (run or check entry), by the name of the item.
 /// @param sql  query for name, call, verdict, value and noise, in the order of the calls
 std::map<std::string, Course> courses_of(Database& database, const char* sql) {
   std::map<std::string, Course> courses;

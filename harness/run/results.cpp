@@ -28,7 +28,7 @@ Status status_of(solver::Status status) {
 
 /// Rounds the displacements in poses and mode shapes to seven digits. Seven digits suffice for
 /// drawing, and for matching of modes, because the error of the overlap is of second order.
-void round_drawing(results::Drawing& drawing) {
+void reduce_drawing_precision(results::Drawing& drawing) {
   const auto round = [](std::vector<results::Point>& points) {
     for (auto& [x, y] : points) x = static_cast<float>(x), y = static_cast<float>(y);
   };
@@ -46,7 +46,8 @@ void add_inputs(const Document& document, const JsonPointer& place, results::Cas
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
   if (text.size() > kMaxLength) return;
   const std::string pointer = place.to_string(), file = document.origin(pointer).file;
-  const bool is_own = file == document.origin("/id").file;  // an id is not inherited from a base
+  // A case does not inherit the id of the case that it extends.
+  const bool is_own = file == document.origin("/id").file;
   info.inputs.push_back({pointer.substr(std::string("/model/").size()), text,
                          is_own ? "" : std::filesystem::path(file).filename().string()});
 }
@@ -105,7 +106,7 @@ void record_result(AnalysisResult result, Run& run) {
     run.effects[i].evaluations = result.counters.evaluations(static_cast<solver::Effect>(i));
   run.model_probabilities = std::move(result.model_probabilities);
   run.drawing = std::move(result.drawing);
-  if (run.drawing) round_drawing(*run.drawing);
+  if (run.drawing) reduce_drawing_precision(*run.drawing);
   run.cost.counters = named_counters(result.counters);
   run.cost.timings = std::move(result.timings);
 }
@@ -127,7 +128,7 @@ results::Results collect_results(std::vector<Run> runs, const std::vector<Case>&
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {
     const bool is_known = contains(out.cases, run.case_id, &results::CaseInfo::id);
-    // A case that could not be read is missing from `cases`. Its id is added here.
+    // A case file that could not be read is missing from `cases`. The id of its run is added here.
     if (!is_known) {
       results::CaseInfo unread;
       unread.id = unread.title = run.case_id;

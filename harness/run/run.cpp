@@ -42,7 +42,7 @@ struct Task {
 
 /// Returns true if the run ended without an answer, for example by a crash. Such a run is not
 /// stored, because a later call may succeed.
-bool has_broken(const Run& run) {
+bool lacks_answer(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;
 }
@@ -175,7 +175,7 @@ unsigned time_limit_s(const Document& document) {
       std::ceil(std::min(document.value().value("timeout_s", kDefault), kLongest)));
 }
 
-void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& options) {
+void record_ended_process(Task& task, const ProcessOutcome& outcome, const RunOptions& options) {
   using Termination = ProcessOutcome::Termination;
   if (options.solver.compute && outcome.termination != Termination::answered)
     return mark_failed(task.run, "no answer: " + outcome.text, Fault::none);
@@ -208,7 +208,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
 
 /// Returns a text with the options of a task that, together with the case, determine the stored
 /// result.
-std::string request_of(const Task& task) {
+std::string describe_request(const Task& task) {
   if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
   return shortest_decimal(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
@@ -222,8 +222,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     std::filesystem::path file;
     if (task.run.status == Status::error) continue;
     if (!options.store.empty())
-      file = options.store /
-             run_file_name(task.document, task.requested, options.solver.hash + request_of(task));
+      file = options.store / run_file_name(task.document, task.requested,
+                                           options.solver.hash + describe_request(task));
     if (options.resume && load_stored_run(file, task.run, options.any_machine, references)) {
       task.run.stored = file.filename().string();
       task.run.was_stored = true;
@@ -244,8 +244,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   return run_in_processes(work, {options.jobs, options.memory_bytes, show},
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
-                            mark_ended(*task, outcome, options);
-                            if (!file.empty() && !has_broken(task->run)) {
+                            record_ended_process(*task, outcome, options);
+                            if (!file.empty() && !lacks_answer(task->run)) {
                               write_file(file, outcome.text);
                               task->run.stored = file.filename().string();
                             }
@@ -303,7 +303,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
       run.checks.back().verdict = verdict;
     }
   };
-  if (has_broken(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
+  if (lacks_answer(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
   if (run.status == Status::not_run) return leave_unjudged("interrupted", Verdict::not_run);
   if (run.status == Status::cannot || run.status == Status::not_exported)
     return leave_unjudged(to_string(run.status) + ": " + run.reason, Verdict::not_given);

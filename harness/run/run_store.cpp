@@ -133,7 +133,7 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
 }
 
 /// Returns the cases that the analysis "options" of a case computes; empty for other analyses.
-Json tried_cases(const Document& document) {
+Json cases_of_options_analysis(const Document& document) {
   Json tried = Json::object();
   if (analysis_kind(document) != "options") return tried;
   const Catalogue catalogue;
@@ -150,7 +150,7 @@ Json tried_cases(const Document& document) {
 std::string run_file_name(const Document& document, bool requested,
                           const std::string& solver_hash) {
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
-  return name_of(text_of_json({requested, file, tried_cases(document), solver_hash}) +
+  return name_of(text_of_json({requested, file, cases_of_options_analysis(document), solver_hash}) +
                  text_of_json(document.value()));
 }
 

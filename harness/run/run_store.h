@@ -35,8 +35,8 @@ namespace trammel::harness {
 [[nodiscard]] bool load_stored_run(const std::filesystem::path& file, Run& run,
                                    bool any_machine = false, const References& references = {});
 
-/// Measures a cost study, or reads its results from the store. The stored study must have the same
-/// settings, program, options, machine and references.
+/// Measures a cost study, or reads its results from the run store. The stored study must have the
+/// same settings, program, options, machine and references.
 [[nodiscard]] results::CostStudy cached_cost_study(const CostStudy& study,
                                                    const CostOptions& options,
                                                    const References& references,
@@ -55,7 +55,8 @@ using EffectScenes = std::vector<results::EffectScene>;
                                                const std::function<EffectScenes()>& measure,
                                                const std::filesystem::path& store, bool resume);
 
-/// Creates the store, and removes its files that no call has written or read for 30 days.
+/// Creates the folder of the run store, and removes its files that no call of trammel has written
+/// or read for 30 days.
 void prepare_store(const std::filesystem::path& store);
 
 /// Returns processor and host name, which identify the machine on which times are measured.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the file of the convergence studies, which is next to the file of the run.
-fs::path judged_file(const fs::path& stored) {
+fs::path convergence_file(const fs::path& stored) {
   return fs::path(stored).replace_extension(".judged.cbor");
 }
 
@@ -36,7 +36,7 @@ fs::path place_of(const fs::path& folder) {
 fs::path write_results(const results::Results& results, const fs::path& folder) {
   for (const Run& run : results.runs)
     if (!run.stored.empty() && !run.sweeps.empty())
-      write_file(judged_file(fs::path(results.store) / run.stored), to_bytes(run.convergence));
+      write_file(convergence_file(fs::path(results.store) / run.stored), to_bytes(run.convergence));
   Json json = to_json(results, true);
   if (!results.store.empty())
     json["store"] = fs::proximate(results.store, place_of(folder)).string();
@@ -72,7 +72,7 @@ bool load_stored_data(Run& run, const fs::path& store) {
     });
     if (!same) return false;  // the file contains another run
     if (!found.sweeps.empty())
-      run.convergence = parse_convergence(read_text(judged_file(store / run.stored)));
+      run.convergence = parse_convergence(read_text(convergence_file(store / run.stored)));
     run.quantities = std::move(found.quantities);
     run.drawing = std::move(found.drawing);
     run.uncertainty = std::move(found.uncertainty);

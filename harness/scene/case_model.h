@@ -25,7 +25,8 @@ struct CaseModel {
   solver::Model structure;
   /// Sliders, line springs and follower loads, which linear analysis supports only in part.
   solver::large_motion::LargeMotionModel joint_elements;
-  solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` includes
+  /// Physical effects that `build_model` includes.
+  solver::Effects effects = solver::Effects::all();
   /// If true, statics with large displacement is solved to six digits only, and residuals of the
   /// solution are not computed.
   bool estimates_large_displacement = false;

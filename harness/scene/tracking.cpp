@@ -96,7 +96,8 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
                               const solver::large_motion::LargeMotionModel& large_motion,
                               solver::Model& model) {
   for (const solver::large_motion::Drive& drive : large_motion.drives) {
-    // The builder's first three supports and nodes belong to the actuators, in the same order.
+    // The first three supports and the first three nodes of a built manipulator belong to its
+    // actuators, in the same order.
     if (!case_model.manipulator || drive.direction != 2 || drive.node > 2) continue;
     const auto limb = solver::to_size(drive.node);
     if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free)

@@ -32,8 +32,8 @@ void require_absent(const JsonView& analysis, const char* key, const char* other
 
 /// Returns the system of equations, reduced to fixed-interface modes if the analysis has the key
 /// "reduction".
-solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
-                         solver::System system) {
+solver::System reduce_if_requested(const JsonView& analysis, const CaseModel& case_model,
+                                   solver::System system) {
   if (!analysis.has("reduction")) return system;
   require_absent(analysis, "count_below_Hz", "reduction",
                  "the count includes all modes of the full model");
@@ -119,7 +119,8 @@ class ShapeTracker {
   }
 
  private:
-  Eigen::MatrixXd last_;  ///< current shapes (translation x mode of the first point)
+  /// Current shapes: a row per nodal translation, a column per mode of the first point.
+  Eigen::MatrixXd last_;
 };
 
 /// Returns the shape of a complex mode at the instant when its largest component is at its maximum.
@@ -162,7 +163,7 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
   for (const double speed : speeds) {
     options.frame.speed = speed;
     const solver::RotatingModes found = solver::solve_rotating_modes(system, options);
-    solver::Counters step_counters = found.counters;  // they include `system.counters`
+    solver::Counters step_counters = found.counters;  // these counters include `system.counters`
     step_counters.element_evaluations = 0;
     for (std::size_t i = 0; i < solver::kEffectCount; ++i)
       step_counters.effects[i] -= system.counters.effects[i];
@@ -195,7 +196,7 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
     return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);
   }
-  const solver::System system = condensed(
+  const solver::System system = reduce_if_requested(
       analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
   const solver::ModalSolution modes = modes_of(analysis, case_model, system);
   StepResult result{modes.outcome, modes.counters, modes.evidence};

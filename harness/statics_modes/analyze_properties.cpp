@@ -27,8 +27,9 @@ Body join(const Body& a, const Body& b) {
   return both;
 }
 
-/// Returns mass, center and inertia of a member, whose elements have constant sections. Includes
-/// the rotary inertia of the cross-section if the beam theory includes rotary inertia.
+/// Returns mass, center of mass and moment of inertia of a member, whose elements have constant
+/// sections. Includes the rotary inertia of the cross-section if the beam theory includes rotary
+/// inertia.
 Body body_of(const solver::Model& model, const solver::Member& member) {
   const Eigen::Vector2d start = model.nodes[solver::to_size(member.nodes[0])].position;
   const Eigen::Vector2d end = model.nodes[solver::to_size(member.nodes[1])].position;
@@ -47,7 +48,8 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
   return whole;
 }
 
-/// Returns mass and center of a six-node triangle by integration, because its sides may be curved.
+/// Returns mass and center of mass of a six-node triangle by numerical integration, because its
+/// sides may be curved.
 Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
   const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;

@@ -68,7 +68,7 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
     if (exactly && !one.derivative.allFinite())
       all.outcome = {solver::Status::singular,
-                     "a limb is straight or folded, so that no changed design reaches the pose"};
+                     "a limb is straight or folded, so that links of other lengths miss the pose"};
   }
   return all;
 }

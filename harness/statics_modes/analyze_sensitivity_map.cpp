@@ -21,7 +21,7 @@ struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< sensitivity at the central position
   double mean_frequency = kNaN, mean = kNaN;  ///< means of frequency and sensitivity
-  /// Sensitivity of largest magnitude, away from the boundary of the workspace.
+  /// Sensitivity of largest magnitude over the positions away from the workspace boundary.
   double largest = kNaN;
 };
 

@@ -12,8 +12,8 @@ namespace trammel::harness {
 namespace {
 
 /// Solves statics with large displacement by geometrically exact elements.
-StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool draw,
-                           Recorder& record) {
+StepResult analyze_large_displacement(const CaseModel& case_model, std::size_t step, bool draw,
+                                      Recorder& record) {
   const solver::Model model = build_without_joint_elements(case_model, step);
   const auto solve = case_model.estimates_large_displacement ? solver::estimate_large_statics
                                                              : solver::solve_large_statics;
@@ -33,7 +33,7 @@ StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool d
 StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::size_t step,
                            bool draw, Recorder& record) {
   if (case_model.effects.has(solver::Effect::large_displacement))
-    return analyze_exactly(case_model, step, draw, record);
+    return analyze_large_displacement(case_model, step, draw, record);
   const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   ModelState solution{solver::solve_statics(
       system, {.second_order = case_model.effects.has(solver::Effect::geometric_stiffening)})};

@@ -93,7 +93,7 @@ class Differences {
   }
 
  private:
-  /// Computes the frequencies of the unchanged design.
+  /// Computes the frequencies of the design with the original value of the parameter.
   VectorXd begin() {
     VectorXd all = frequencies(0);
     result_.frequency = all.head(std::min(count_, all.size()));

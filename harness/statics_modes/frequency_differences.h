@@ -28,7 +28,8 @@ struct DesignInPose {
                                      const solver::DesignParameter& parameter);
 
 struct FrequencyDifferences {
-  /// Outcome of computing the modes of the original and the changed designs.
+  /// Outcome of computing the modes of the designs with the original and with changed parameter
+  /// values.
   solver::Outcome outcome;
   solver::Evidence evidence;   ///< residuals of the modes of all designs
   Eigen::VectorXd frequency;   ///< natural frequencies of the original design, ascending [Hz]
@@ -51,8 +52,8 @@ struct FrequencyDifferences {
 
 /// Computes one difference quotient without extrapolation: central over 2 h or forward over h.
 /// @param relative_step  ratio of the step h to the value of the parameter, > 0
-/// @throws ModelError  if the design is invalid (see `build_manipulator`), or if the changed design
-///   cannot reach the pose.
+/// @throws ModelError  if the design is invalid (see `build_manipulator`), or if the design with
+///   the changed parameter cannot reach the pose.
 [[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
                                                        const solver::Pose& pose,
                                                        const solver::DesignParameter& parameter,

@@ -11,7 +11,7 @@ namespace trammel::harness {
 
 struct MembraneTest {
   references::manufactured::MembraneProblem problem;
-  double thickness = 0;     ///< [m]
+  double thickness = 0;     ///< thickness of the membrane [m]
   solver::Index cells = 1;  ///< number of cells along each side
   bool six_nodes = false;
   double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
@@ -21,7 +21,7 @@ struct MembraneTest {
 struct ManufacturedSolution {
   solver::Outcome outcome;
   solver::System system;
-  Eigen::VectorXd q;  ///< free coordinates
+  Eigen::VectorXd q;  ///< values of the free coordinates
   solver::Evidence evidence;
   solver::Counters counters;
 };

@@ -142,7 +142,7 @@ void warn_of_redundant_constraints(const solver::System& system, std::vector<War
 void warn_of_redundant_constraints(Eigen::Index redundant, std::vector<Warning>& warnings) {
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
-                         "equilibrium alone does not determine their forces: the reported "
+                         "equilibrium alone does not determine constraint forces: the reported "
                          "forces are one of many solutions"});
 }
 

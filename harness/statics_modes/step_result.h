@@ -24,7 +24,8 @@ struct StepResult {
   solver::Outcome outcome;
   solver::Counters counters;
   solver::Evidence evidence = {};  ///< residuals that decide if the result counts as solved
-  std::optional<Drawing> drawing = std::nullopt;  ///< drawing of the first step, if requested
+  /// Drawing at the first point of the path, if requested.
+  std::optional<Drawing> drawing = std::nullopt;
   std::vector<Warning> warnings = {};
   std::vector<EvaluationTime> timings = {};
   std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;

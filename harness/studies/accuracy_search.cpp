@@ -21,12 +21,12 @@ constexpr int kMaxRefinements = 14, kCoarserSteps = 2;
 /// plates.
 constexpr double kCostGrowth = 4, kUnknown = std::numeric_limits<double>::infinity();
 
-bool is_asked(const std::string& name, const std::vector<std::string>& names) {
+bool is_requested(const std::string& name, const std::vector<std::string>& names) {
   return contains(names, name) || contains(names, name.substr(0, name.find(':')));
 }
 
 /// Returns a patch that keeps the times at which results are recorded if the time step changes.
-Json fixed_outputs(const Document& document) {
+Json patch_keeping_output_times(const Document& document) {
   const std::string kind = inner_analysis_kind(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   if (kind == "transient") {
@@ -68,7 +68,7 @@ class Search {
       : request_(request),
         references_(references),
         current_(document),
-        outputs_(fixed_outputs(document)) {
+        outputs_(patch_keeping_output_times(document)) {
     current_.apply_patch("recorded times", "", outputs_);
   }
 
@@ -92,7 +92,7 @@ class Search {
     }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
     found_.asked = asked_;
-    found_.errors.companions = "the levels of the search";
+    found_.errors.companions = "the refinement levels of the search";
     found_.errors.counters = named_counters(counters_);
     return std::move(found_);
   }
@@ -154,8 +154,8 @@ class Search {
         "/analysis", "the case has no solution for any mesh and step of the search: " + reason_);
   }
 
-  /// Solves with a finer mesh and with a finer step, for estimates of both errors of the first
-  /// level. The search continues with one of these results.
+  /// Solves with a finer mesh and with a finer step, for estimates of the errors of the first
+  /// refinement level due to mesh and step. The search continues with one of these results.
   void probe() {
     for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
       auto finer = adjacent_refinement_level(current_, source, Refine::finer, &found_.result);
@@ -179,20 +179,20 @@ class Search {
     for (const auto& item : found_.result.quantities)
       if (is_estimated(item.first)) names.push_back(item.first);
     for (const std::string& asked : request_.quantities) {
-      if (std::ranges::any_of(names, [&](const auto& name) { return is_asked(name, {asked}); }))
+      if (std::ranges::any_of(names, [&](const auto& name) { return is_requested(name, {asked}); }))
         continue;
       throw InputError("--quantity: " +
                        unknown_name_message("a quantity with an estimated error", asked, names));
     }
     asked_ = request_.quantities.empty() ? kUsual : request_.quantities;
-    if (std::ranges::none_of(names, [&](const auto& name) { return is_asked(name, asked_); }))
+    if (std::ranges::none_of(names, [&](const auto& name) { return is_requested(name, asked_); }))
       asked_.clear();
   }
 
   [[nodiscard]] double largest(const std::map<ErrorSource, ErrorBands>& bands) const {
     double error = -1;
     for (const auto& estimate : relative_errors(current_, found_.result, bands)) {
-      if (!asked_.empty() && !is_asked(estimate.quantity, asked_)) continue;
+      if (!asked_.empty() && !is_requested(estimate.quantity, asked_)) continue;
       for (const Number relative : estimate.relative)
         error = std::max(error, relative.value_or(kUnknown));
     }
@@ -267,8 +267,10 @@ class Search {
   AccuracySearch found_;
   std::optional<Level> best_;  // level with the smallest estimated error
   std::vector<std::string> asked_;
-  std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // bands from three and from two levels
-  std::map<ErrorSource, AnalysisResult> probed_;          // results one level finer than the first
+  // Error bands from three and from two refinement levels.
+  std::map<ErrorSource, ErrorBands> bands_, two_levels_;
+  // Results one refinement level finer than the first level.
+  std::map<ErrorSource, AnalysisResult> probed_;
   solver::Counters counters_;
   std::string reason_;
   double cpu_s_ = 0;
@@ -293,7 +295,7 @@ CostStudy cost_study_of_search(const Case& given, const std::string& variant,
   std::vector<ObservedQuantity> observed;
   for (const auto& estimate : search.errors.quantities) {
     const bool is_zero = max_abs(search.result.quantities.at(estimate.quantity).values) == 0;
-    if (!is_zero && (search.asked.empty() || is_asked(estimate.quantity, search.asked)))
+    if (!is_zero && (search.asked.empty() || is_requested(estimate.quantity, search.asked)))
       observed.push_back({estimate.quantity, "", "", {}, false, {}});
   }
   const auto add = [&](const Document& document) {

@@ -12,16 +12,17 @@ namespace trammel::harness {
 
 struct AccuracyRequest {
   double accuracy = 1e-3;  ///< largest relative error, > 0
-  /// Names of the quantities that must be accurate, with or without the part after the colon. If
-  /// empty: frequencies, load factors, displacements and positions, or all quantities if the case
-  /// computes none of these.
+  /// Names of the quantities that must reach the accuracy, with or without the part after the
+  /// colon. If empty: frequencies, load factors, displacements and positions, or all quantities if
+  /// the case computes none of these.
   std::vector<std::string> quantities;
   double time_limit_s = 120;  ///< limit of the processor time of the search
 };
 
 struct AccuracySearch {
   std::vector<Document> tried;  ///< all computed discretizations, coarse to fine
-  AnalysisResult result;        ///< with the last discretization, or with the most accurate one
+  /// Result with the last discretization tried, or with the most accurate one.
+  AnalysisResult result;
   results::ErrorEstimates errors;
   std::vector<std::string> asked;  ///< names of the quantities that must be accurate; empty: all
   bool reached = false;

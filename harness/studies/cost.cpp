@@ -115,7 +115,7 @@ CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
   const double error = *measured.errors->get(study.norm);
   if (!(error <= kDivergedError)) {
     measured.status = "diverged";
-    measured.reason = std::isfinite(error) ? "the error is above 1000 %" : "error is not finite";
+    measured.reason = std::isfinite(error) ? "the error exceeds 1000 %" : "error is not finite";
     return measured;
   }
   const bool is_reference = study.reference_solution &&

@@ -8,8 +8,8 @@
 #include "harness/studies/cost_study.h"
 #include "harness/studies/pareto_front.h"
 
-/// Measures the computing time that an accuracy requires: error and time of every setting of a cost
-/// study.
+/// Measures the computing time that an accuracy requires: the error and the time of every setting
+/// (such as a mesh) of a cost study.
 namespace trammel::harness {
 
 /// Returns norms of the relative errors of all values in `computed`.

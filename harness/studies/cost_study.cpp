@@ -87,7 +87,7 @@ void apply_patch(Document& document, const JsonView& patch) {
 
 /// Returns the case of a curve or of the reference solution, with the patches of the study and the
 /// curve.
-Document start_of(const JsonView& study, const JsonView& part) {
+Document patched_study_case(const JsonView& study, const JsonView& part) {
   Document document = open_case(study, part);
   if (study.has("patch") && !part.has("case")) apply_patch(document, study["patch"]);
   if (part.has("patch")) apply_patch(document, part["patch"]);
@@ -128,7 +128,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   setting.curve_title = setting.title = curve.text("title");
   const JsonView quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
   setting.observed = read_observed(study, quantities, references);
-  const Document start = start_of(study, curve);
+  const Document start = patched_study_case(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
     if (curve.has("pointers") || curve.has("patches"))
@@ -161,7 +161,8 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-/// Reads the scale of an output's errors. Returns the scale and its description.
+/// Reads the divisor (scale) that makes the errors of a study output relative. Returns the scale
+/// and its description.
 std::pair<Scale, std::string> read_scale(const JsonView& output) {
   const auto place = output.find("scale");
   if (place && place->json().is_object()) {
@@ -220,7 +221,7 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
     study.reference_description =
-        named.empty() ? "the error norms of the computation itself" : named;
+        named.empty() ? "exact values with which the analysis computes its errors" : named;
     return;
   }
   const JsonView place = root["reference_solution"];
@@ -228,7 +229,7 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   reference_solution.title = study.reference_description = place.text("title");
   const JsonView quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
   reference_solution.observed = read_observed(root, quantities, references);
-  reference_solution.document = start_of(root, place);
+  reference_solution.document = patched_study_case(root, place);
   reference_solution.document.validate("case");
   study.reference_solution = std::move(reference_solution);
 }

@@ -70,14 +70,15 @@ struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< settings of all curves, each coarse to fine
   std::optional<Setting>
-      reference_solution;  ///< used if the observed quantities have no exact values
+      /// Setting of the reference solution; used if quantities have no exact values.
+      reference_solution;
   /// Description of the solution against which errors are measured.
   std::string reference_description;
   std::size_t baseline = 0;  ///< index of the setting to which times are relative
   /// The first output defines the figure, the Pareto front and the conclusion of the study. Every
   /// setting computes the first output; further outputs are optional.
   std::vector<StudyOutput> outputs{1};
-  std::string norm = "max";  ///< "max", "rms" or "mean"
+  std::string norm = "max";  ///< norm of the errors: "max", "rms" or "mean"
   int time_limit_s = 60;
 };
 

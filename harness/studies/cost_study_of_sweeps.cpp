@@ -22,8 +22,8 @@ std::vector<double> exact_values(const TrackedQuantity& tracked) {
 
 /// Returns the checks whose quantities converge under refinement. Checks of counts and checks that
 /// only state bounds are omitted.
-std::vector<Check> comparisons(const Document& document, const std::string& variant,
-                               const std::vector<std::string>& variants) {
+std::vector<Check> convergence_checks(const Document& document, const std::string& variant,
+                                      const std::vector<std::string>& variants) {
   std::vector<Check> checks;
   if (!document.value().contains("checks")) return checks;
   for (const Check& check : read_checks(document, variant, variants)) {
@@ -43,7 +43,7 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
 
 /// Removes the quantities without exact values if others have exact values, because a cost study
 /// measures all errors against the same kind of reference.
-bool keep_exact(std::vector<ObservedQuantity>& observed) {
+bool drop_without_exact_value(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::ranges::all_of(observed, lacks)) return false;
   std::erase_if(observed, lacks);
@@ -56,8 +56,8 @@ std::string quantities_of(const std::vector<ObservedQuantity>& observed) {
   return join(names, "and");
 }
 
-std::vector<std::string> sweeps_wanted(const JsonView& sweeps,
-                                       const std::vector<std::string>& asked) {
+std::vector<std::string> requested_sweeps(const JsonView& sweeps,
+                                          const std::vector<std::string>& asked) {
   std::vector<std::string> there;
   for (const auto& entry : sweeps.entries()) there.push_back(entry.first);
   for (const std::string& name : asked) {
@@ -87,18 +87,18 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const JsonView root(document);
   if (!root.has("sweeps"))
     throw root.error("expected 'sweeps', which define the refinement, or the option --accuracy");
-  const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
+  const std::vector<std::string> wanted = requested_sweeps(root["sweeps"], sweeps);
   CostStudy study = cost_study_without_settings(given, variant);
   const JsonView first = root["sweeps"][wanted.front()];
   std::vector<ObservedQuantity> observed = observed_quantities(
       first.has("quantities")
           ? quantities_of_sweep(first["quantities"], references)
-          : quantities_of_checks(document, comparisons(document, variant, given.variants()),
+          : quantities_of_checks(document, convergence_checks(document, variant, given.variants()),
                                  references));
   if (observed.empty())
     throw first.error(
         "the sweep has no 'quantities', and no check compares a quantity with a reference");
-  const bool exact = keep_exact(observed);
+  const bool exact = drop_without_exact_value(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {
     for (Setting& setting : settings_of(document, name, observed))

@@ -22,7 +22,7 @@ using results::ErrorEstimate;
 using results::ErrorEstimates;
 
 constexpr double kSafetyFactor = 3;       // Roache's safety factor if no order is observed
-constexpr double kLargeDifference = 0.1;  // relative; not in the asymptotic range above
+constexpr double kLargeDifference = 0.1;  // above this relative difference: not asymptotic
 constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
                                           // for all entries
 
@@ -94,10 +94,10 @@ double step_order(const Document& document, const std::string& quantity) {
   if (inner_analysis_kind(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
   // the largest step limits all steps, the error decreases only to 1/4, and not to 10^(-2/3). The
-  // larger of these errors is assumed.
+  // estimate assumes the larger of these two errors.
   if (has_step_tolerance(document))
     return analysis.contains("error_control") ? std::log10(4.0) : 2.0 / 3;
-  // Vibrations with periods below the step delay the convergence of reactions.
+  // Vibrations with periods shorter than the time step delay the convergence of reactions.
   if (inner_analysis_kind(document) == "large-motion" && quantity.starts_with("reaction_"))
     return 1;
   if (analysis.value("extrapolated", false)) return 3;
@@ -153,7 +153,7 @@ bool has_shapes(const AnalysisResult& result) {
 
 /// Returns true if a frequency or load factor has no match on the other mesh, or if a curve
 /// has fewer than two common samples.
-bool has_gaps(const ErrorBands& bands) {
+bool has_unmatched(const ErrorBands& bands) {
   return std::ranges::any_of(bands, [](const auto& item) {
     const std::vector<double>& width = item.second.half_width;
     const auto known = std::ranges::count_if(width, [](double x) { return std::isfinite(x); });
@@ -454,7 +454,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
     for (const Refine refine : {Refine::coarser, Refine::finer}) {
       const auto companion = adjacent_refinement_level(document, source, refine, &result);
       if (!companion) continue;
-      if (!used.empty() && (used == companion->words || !has_gaps(bands[source]))) continue;
+      if (!used.empty() && (used == companion->words || !has_unmatched(bands[source]))) continue;
       failed = companion->words;
       const auto model = [&] { return model_at_path_start(read_case_model(document)); };
       if (companion->finer && unknown_count(model()) > 1000) continue;

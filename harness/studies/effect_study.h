@@ -11,14 +11,14 @@
 /// all effects, with the selected effects, and without each effect.
 namespace trammel::harness {
 
-/// Results of the scene with one set of effects.
+/// Results of the studied case (scene) with one set of physical effects.
 struct EffectRun {
   solver::Effects effects, left_out;
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
   double work = 0;   ///< counted work, see `estimated_work` in coarse_scene.h
-  Changes changes;   ///< changes of the results, relative to the scene with all effects
+  Changes changes;   ///< changes of the results, relative to the results with all effects
   double cpu_s = 0;  ///< median of the repeats, or time of a single run
 
   /// Returns the largest relative change of the results, compared with all effects; infinite if the
@@ -36,8 +36,8 @@ struct EffectStudy {
   /// has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
-  /// Runs without one effect of the full set, for each effect: separate contributions of the
-  /// effects.
+  /// Runs with all effects except one, for each effect. They measure the separate contributions of
+  /// the effects.
   std::vector<EffectRun> without_one;
   /// Runs without one of the chosen effects, for each chosen effect that can be removed.
   std::vector<EffectRun> without_chosen;

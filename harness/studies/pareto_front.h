@@ -18,7 +18,8 @@ struct CostPoint {
   double low = time, high = time;  ///< confidence interval of the time
 };
 
-/// Smallest error of a point. It replaces an error of zero, and equals the resolution of a double.
+/// Smallest error of a point of the Pareto front, equal to the resolution of a double. It replaces
+/// an error of zero.
 inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 
 /// Relative difference below which times and errors count as equal. The median time of seven

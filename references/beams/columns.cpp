@@ -14,13 +14,14 @@ namespace trammel::references {
 namespace {
 
 /// Characteristic function of the elastic buckling of a uniform column (S. P. Timoshenko, J. M.
-/// Gere, Theory of Elastic Stability, 2nd ed., chapter 2). End loads are P = x^2 EI/L^2, where x
-/// depends on the ends:
+/// Gere, Theory of Elastic Stability, 2nd ed., chapter 2). Critical end loads are P = x^2 EI/L^2.
+/// The number x is a root of an equation that depends on the ends:
 ///
 ///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
 ///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0.
 ///
-/// The critical weight of a clamped-free column is q L = (9/4) j^2 EI/L^2 with J_{-1/3}(j) = 0.
+/// A clamped-free column buckles under its own weight q per unit length at q L = (9/4) j^2 EI/L^2,
+/// with J_{-1/3}(j) = 0.
 Real end_load_function(const std::string& ends, const Real& x) {
   if (ends == "clamped-free") return cos(x);
   if (ends == "pinned-pinned") return sin(x);
@@ -37,9 +38,10 @@ struct Follower {
   Real p, q;
 };
 
-/// Returns the characteristic function of a cantilever under follower loads for real or complex W.
-/// It is the determinant of the clamping conditions w = w' = 0 at x = 1. A power series with x from
-/// the tip and w'' = w''' = 0 at x = 0 solves
+/// Returns the characteristic function of a cantilever under follower loads for a real or complex
+/// dimensionless frequency W. It is the determinant of the clamping conditions w = w' = 0 at x = 1.
+/// The deflection is w, and x is the distance from the tip. A power series that satisfies w'' =
+/// w''' = 0 at the tip solves
 ///
 ///   w'''' + (p + q x) w'' = W^2 w.
 template <class T>
@@ -60,8 +62,8 @@ T follower_determinant(const T& W, const Follower& load) {
   return value[0] * slope[1] - value[1] * slope[0];
 }
 
-/// Returns the minimum of the characteristic function between its two lowest roots W, and the W at
-/// which it occurs. The minimum is 0 if the roots meet, and positive beyond the flutter load.
+/// Returns the minimum of the characteristic function between its two lowest roots W, and the W of
+/// this minimum. The minimum is 0 if the roots meet, and positive beyond the flutter load.
 std::pair<Real, Real> lowest_value(const Follower& load) {
   const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
   constexpr int kBits = 80;  // round-off hides half of the digits of a minimum

@@ -149,7 +149,7 @@ void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknow
         (correction.array().abs() / (1 + unknown.head(value.size()).array().abs())).maxCoeff();
     if (size < Real(1e-25)) return;
   }
-  arguments.fail("nodes_m", "expected an equilibrium that Newton's method finds");
+  arguments.fail("nodes_m", "Newton's method does not converge to an equilibrium");
 }
 
 Real output(const Arguments& arguments, const Chain& chain, const std::string& name,

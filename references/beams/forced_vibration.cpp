@@ -15,7 +15,7 @@ namespace trammel::references {
 
 namespace {
 
-constexpr int kMaxWaveNumber = 4001;  // modal stresses decrease as n^-3
+constexpr int kMaxWaveNumber = 4001;  // the stress of mode n decreases as n^-3
 const double kPi = std::acos(-1.0);
 
 /// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span
@@ -69,7 +69,7 @@ std::vector<Mode> modes(const Arguments& arguments) {
 }
 
 /// Returns the sum of f(mode), multiplied by the static contribution `share` of the mode, over all
-/// modes. It adds the highest modes first, because their contributions are the smallest.
+/// modes. The sum starts with the highest modes, because their contributions are the smallest.
 template <class T>
 T sum(const std::vector<Mode>& modes, double Mode::*share, const std::function<T(const Mode&)>& f) {
   T total = 0;
@@ -106,8 +106,8 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
-/// Returns the x between lo and hi at which f(x) is largest. Brent's method refines the best point
-/// of a grid.
+/// Returns the x between lo and hi at which f(x) is largest. Brent's method refines the grid point
+/// with the largest f.
 double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
   const double step = (hi - lo) / grid;
@@ -162,13 +162,12 @@ std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments) {
 /// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261). The total
 /// mass is M, and the spring has the stiffness k, so that the natural angular frequency is w, w^2 =
 /// k/M. The unbalance is m e, with a mass m at the radius e. The rotor has the prescribed angle
-/// a(t), and starts from rest at
-/// a(0) = 0. The displacement of the carriage is x. Integrating Duhamel's integral twice by parts
-/// gives
+/// a(t), and starts from rest at a(0) = 0. The displacement of the carriage is x. Integrating
+/// Duhamel's integral twice by parts gives
 ///
 ///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds).
 ///
-/// Gauss' rule of 20 points in intervals of 0.01 s computes the integral.
+/// Gauss' rule with 20 points in each interval of 0.01 s computes the integral.
 std::vector<Real> rotor_run_up_program(const Arguments& arguments) {
   const Real w = arguments.positive("angular_frequency_rad_s"),
              T = arguments.positive("duration_s");

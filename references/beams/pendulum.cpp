@@ -35,7 +35,7 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
 ///
 ///   theta'' = a sin theta,  a = (g/l) ((N + 1)/2 + N) / ((N + 1)/3 + N).
 ///
-/// It starts from theta = 0 with theta' = W. With k^2 = 4 a/(W^2 + 4 a) and
+/// The motion starts from theta = 0 with theta' = W. With k^2 = 4 a/(W^2 + 4 a) and
 /// s = t sqrt(W^2 + 4 a)/2, Jacobi's functions give
 ///
 ///   sin(theta/2) = k' sd(s, k),  cos(theta/2) = cd(s, k).

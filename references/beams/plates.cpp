@@ -25,9 +25,9 @@ std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r
 
 /// In-plane vibration of a free annular plate in plane stress with n waves around its circumference
 /// (A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity, 4th ed., chapter XXII). The
-/// potentials phi and psi are J_n and Y_n of a r and b r. For n = 0 the frequencies of radial and
-/// torsional motions form one list. With a = w/c_p, c_p^2 = E/(rho (1 - nu^2)), b = w/c_s and c_s^2
-/// = G/rho:
+/// displacements follow from the potentials phi and psi, which are Bessel functions J_n and Y_n of
+/// a r and of b r. For n = 0 the frequencies of radial and torsional motions form one list. With
+/// a = w/c_p, c_p^2 = E/(rho (1 - nu^2)), b = w/c_s and c_s^2 = G/rho:
 ///
 ///   u_r = phi' + n psi/r,  u_t = -n phi/r - psi'.
 ///
@@ -80,7 +80,7 @@ std::vector<Real> annular_plate_inplane_program(const Arguments& arguments) {
   const Annulus annulus{arguments.positive("inner_radius_m"), arguments.positive("outer_radius_m"),
                         sqrt(e / (1 - nu * nu)), sqrt(e / (2 * (1 + nu))), nu};
   if (annulus.inner >= annulus.outer)
-    arguments.fail("outer_radius_m", "expected more than the inner radius");
+    arguments.fail("outer_radius_m", "expected a radius above the inner radius");
   const auto wanted = wanted_modes(arguments);
   const Real step = annulus.c_s / annulus.outer / 50;
   std::map<int, int> counts;  // number n of waves -> number of frequencies to compute
@@ -110,7 +110,7 @@ std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
   const std::vector<Real> a = arguments.numbers("clamped_side", 2);
   const std::vector<Real> b = arguments.numbers("free_side", 2);
   const Real product = sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
-  if (product == 0) arguments.fail("clamped_side", "expected directions that are not zero");
+  if (product == 0) arguments.fail("clamped_side", "expected directions [x, y] that are not zero");
   const Real angle = acos(Real((a[0] * b[0] + a[1] * b[1]) / product));
   const Real nu = arguments.number("nu");
   const bool stress = arguments.choice("plane", "stress", {"stress", "strain"}) == "stress";

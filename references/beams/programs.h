@@ -21,7 +21,8 @@ namespace trammel::references {
 /// Computes the stability of a cantilever under follower loads: an end force P = p EI/L^2 along the
 /// tangent at the tip (Beck), or a load q EI/L^3 per length along the tangent at each point
 /// (Leipholz). Source: V. V. Bolotin, Nonconservative Problems of the Theory of Elastic Stability,
-/// 1963, section 2.2. With x from the tip over L and W = w L^2 sqrt(rho A/EI), power series solve
+/// 1963, section 2.2. The deflection is v, the circular frequency is w, and x is the distance from
+/// the tip divided by L. With W = w L^2 sqrt(rho A/EI), power series solve
 ///
 ///   v'''' + (p + q x) v'' = W^2 v.
 ///

@@ -31,11 +31,11 @@ struct RotatingBeam {
   Real eta = 0;
   Real hub_ratio = 0;
   bool in_plane = false;
-  std::optional<Real> axial_ratio;  ///< s = EA L^2/EI, for lag; none: axially rigid
+  std::optional<Real> axial_ratio;  ///< s = EA L^2/EI, for lag; no value: axially rigid
 };
 
-/// V'', V''' and U' at the tip of a rotating beam, for one solution of its equations. All three
-/// vanish for a vibration mode.
+/// V'', V''' and U' at the tip of a rotating beam, for one solution of its equations. For a
+/// vibration mode, these three derivatives vanish.
 using Tip = std::array<Real, 3>;
 
 /// Returns V'', V''' and U' at the tip of a rotating beam, for the solution that starts at the

@@ -25,7 +25,7 @@ constexpr std::array<bool, 256> kStructural = [] {
 }();
 
 /// Position in a JSON text. The functions `pass...` advance the position, and return false if the
-/// text does not contain the expected characters.
+/// text does not contain the expected characters at the position.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}
@@ -86,7 +86,8 @@ bool less(const JsonMember& a, const JsonMember& b) {
 
 constexpr std::string_view kEnding = ".json";
 
-/// Calls `see` with the folder and the name of each JSON file in a folder and its subfolders.
+/// Calls the function `see` with the folder and the name of each JSON file in a folder and its
+/// subfolders.
 template <typename See>
 void walk(const std::string& folder, const See& see) {
   const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder.c_str()), closedir);

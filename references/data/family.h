@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Reads family files. A family file contains the references of one family of cases, each under its
-/// id. It states keys that most of its references have in common only once.
+/// id. Keys that most of these references have in common are stated only once, under "common".
 namespace trammel::references {
 
 /// Key of the object in a family file that contains the keys that its references have in common.
@@ -25,14 +25,14 @@ struct JsonMember {
   std::string_view value;
 };
 
-/// Splits a JSON object into its members. It does not parse their values, because a case needs few
-/// references of a family.
+/// Splits a JSON object into its members. The values of the members are not parsed, because a case
+/// needs few references of a family.
 /// @returns the members, sorted by key; no value if the text is no object or a key is repeated.
 [[nodiscard]] std::optional<std::vector<JsonMember>> json_members(std::string_view text);
 
 /// Returns the keys of a JSON object without parsing it: the first key, and each key that follows a
-/// line "  },". With the usual line breaks of a family file, these are all its keys. This takes a
-/// tenth of the time of `json_members`.
+/// line "  },". With the usual line breaks of a family file, these are all its keys. This function
+/// takes a tenth of the time of `json_members`.
 [[nodiscard]] std::vector<std::string_view> top_level_keys(std::string_view text);
 
 /// Returns the value of a key, or no value if there is no member with this key.

@@ -23,7 +23,7 @@ struct Reference {
   std::vector<std::string> printed;      ///< digits printed in the source; may be empty
   std::string derivation;                ///< program and arguments as text; empty if none
   std::vector<std::string> errata;       ///< proved misprints and errors of the source
-  std::vector<std::string> ambiguities;  ///< what the source leaves open
+  std::vector<std::string> ambiguities;  ///< data that the source leaves open
   std::string notes;
   /// Probabilities of the interpretations ("readings") of a published model, as JSON text. The text
   /// is empty if the reference has no probabilities.

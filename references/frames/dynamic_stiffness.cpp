@@ -36,7 +36,8 @@ struct MemberStiffness {
   int clamped_below = 0;  ///< number of frequencies below w with clamped ends
 };
 
-/// Returns the number of integers n >= 1 with n pi / L < k, for the wave number k.
+/// Returns the number of integers n >= 1 with n pi / L < k, for the wave number k and the member
+/// length L.
 template <class T>
 int waves_below(const T& k, const T& length) {
   using std::ceil;
@@ -56,9 +57,9 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   const T p = (g + r - tension / m.EI) / 2;
   const T q = g * r - w2 * m.mass / m.EI;
   const T root = sqrt(p * p - q);
-  // `below` and `above` are the two roots k^2. The root `below` is negative, so that its solution
-  // oscillates along the beam. The root `above` is negative only beyond the cut-on frequency of
-  // shear waves. The formulas avoid cancellation.
+  // `below` and `above` are the two roots k^2 of the wave number equation. The root `below` is
+  // negative, so that its solution oscillates along the beam. The root `above` is negative only
+  // beyond the cut-on frequency of shear waves. The formulas avoid cancellation errors.
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
   // Displacements (v, psi) and forces (V, M) at the member's right end, for motions even and odd

@@ -51,7 +51,7 @@ class DynamicStiffness {
  private:
   struct TransformedMember {
     MemberData<T> data;
-    Eigen::SparseMatrix<T> transformation;  ///< from q to end displacements in member axes
+    Eigen::SparseMatrix<T> transformation;  ///< free coordinates to member-axis displacements
   };
 
   void transform_members(const Frame& frame, const FrameCoordinates& coordinates);

@@ -29,7 +29,8 @@ struct FrameMaterial {
   Real nu = 0;   ///< [-]
 };
 
-/// Reads a material from where[key] with "E_Pa", "rho_kg_m3" and "nu".
+/// Reads a material from the JSON object where[key], which has the keys "E_Pa", "rho_kg_m3" and
+/// "nu".
 [[nodiscard]] FrameMaterial read_material(const Arguments& where, const std::string& key);
 
 /// Returns a section with the compliances and inertias for every beam theory.
@@ -39,7 +40,7 @@ struct FrameMaterial {
                                               const Real& shear_coefficient);
 
 /// Returns the section of a rectangle.
-/// @param thickness  in the plane of the frame [m];  @param width  across it [m].
+/// @param thickness  in the plane of the frame [m];  @param width  normal to this plane [m].
 [[nodiscard]] FrameSection rectangular_section(const FrameMaterial& material, const Real& thickness,
                                                const Real& width, const Real& shear_coefficient);
 
@@ -103,8 +104,8 @@ struct FrameLoad {
 [[nodiscard]] FrameEnd read_end_fixity(const Json& value, const Arguments& where,
                                        const std::string& key);
 
-/// Constraint of a node: its rotation is `share` times the sum of the rotations of some member
-/// ends.
+/// Constraint of a node: the rotation of the node is `share` times the sum of the rotations of the
+/// member ends in `ends`.
 struct RotationConstraint {
   int node = 0;
   Real share = 0;

@@ -6,7 +6,7 @@ namespace {
 
 /// Returns the vertices of an equilateral triangle, at 210, 330 and 90 degrees about its center.
 std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side) {
-  const Real height = side / (2 * sqrt(Real(3)));  // distance of the center from the first edge
+  const Real height = side / (2 * sqrt(Real(3)));  // distance of the center from each side
   return {{center[0] - side / 2, center[1] - height},
           {center[0] + side / 2, center[1] - height},
           {center[0], center[1] + 2 * height}};
@@ -22,7 +22,7 @@ Real given_or(const Arguments& object, const std::string& key, const Real& compu
   return is_given(object, key) ? object.positive(key) : computed;
 }
 
-/// Returns the data of the proximal or distal links of a manipulator.
+/// Returns the arguments that describe the proximal or the distal links of a manipulator.
 Arguments links_of_kind(const Arguments& manipulator, const char* kind) {
   Json links = manipulator["links"];
   if (links.contains(kind)) links.merge_patch(Json(links[kind]));

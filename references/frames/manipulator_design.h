@@ -34,7 +34,7 @@ template <class Number>
   const Number dy = C[1] - A[1];
   const Number r2 = dx * dx + dy * dy;
   const Real squares = proximal * proximal - distal * distal;
-  const Number along = (squares + r2) / (Real(2) * r2);  // foot of the elbow on A C / its length
+  const Number along = (squares + r2) / (Real(2) * r2);  // projection of A B on A C, over |A C|
   const Number height2 = Real(proximal * proximal) / r2 - along * along;
   if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
   const Number across = Real(mode) * sqrt(height2);

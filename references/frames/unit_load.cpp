@@ -19,8 +19,8 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
 }
 
 /// Matrices of the force method for the internal forces f of members and springs. B f + p are the
-/// resulting forces on the coordinates under the loads p. Phi f + phi0 are the deformations of
-/// members and springs, where phi0 are the deformations due to distributed loads.
+/// resulting forces on the coordinates of the nodes under the loads p. Phi f + phi0 are the
+/// deformations of members and springs, where phi0 are the deformations due to distributed loads.
 struct Equations {
   RealMatrix B, Phi;
   RealVector p, phi0;

@@ -14,7 +14,8 @@ namespace trammel::references {
 namespace {
 
 /// Returns a bracket of relative width 1e-8 about the root `index`, computed in double precision:
-/// the count is less than `index` at its lower end, and at least `index` at its upper end.
+/// the count of roots is less than `index` at the lower end of the bracket, and at least `index` at
+/// its upper end.
 std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   double lo = f.lo, hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
@@ -31,7 +32,7 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   return {Real(lo) * (1 - Real(1e-9)), Real(hi) * (1 + Real(1e-9))};
 }
 
-/// Widens a bracket until the count in extended precision shows that it contains the root.
+/// Widens a bracket until the count in extended precision shows that the bracket contains the root.
 void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
   for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
     lo *= 1 - std::min(relative_width, Real(0.5));
@@ -44,8 +45,8 @@ void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
 
 /// Returns the argument x at which the count reaches `index`. Let m be the number of roots in the
 /// bracket. The function |det D|^(1/m), negative if the count is less than `index`, has a simple
-/// zero at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and
-/// only the count is bisected.
+/// zero at x. If a natural frequency of a member with clamped ends lies in the bracket, det D has a
+/// pole. Bisection then uses only the count.
 Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);

@@ -11,8 +11,9 @@ namespace trammel::references {
 
 /// A Wittrick-Williams count as a function of a frequency or load factor. Its roots are the
 /// arguments at which the count reaches 1, 2, 3, ... They are bracketed in double precision. The
-/// bracket is confirmed and refined in extended precision, because double precision reaches only
-/// about 3e-10. No root is missed, and a repeated root appears as often as it occurs.
+/// bracket is confirmed and refined in extended precision, because double precision only yields a
+/// relative error of about 3e-10. No root is missed, and a repeated root appears as often as it
+/// occurs.
 struct CountingFunction {
   std::function<int(double)> coarse;
   std::function<DynamicStiffness<Real>::Count(const Real&)> fine;

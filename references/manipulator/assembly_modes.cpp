@@ -6,12 +6,12 @@
 #include "references/numerics/real.h"
 
 /// Computes all poses of a planar 3-RRR manipulator at given angles of its actuators, and proves
-/// that no other
-/// poses exist (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i,
-/// the joints c_i of the platform and D_i = B_i - R(phi) c_i, the platform's point P is on three
-/// circles about D_i. Eliminating x and y leaves a trigonometric polynomial Q(phi) of degree 3,
-/// with at most six zeros. By Bernstein the k-th derivative is at most 3^k max|Q|. Intervals are
-/// halved until each is shown to have no zero, one or, on both sides of an extremum, two.
+/// that no other poses exist (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the
+/// elbows B_i, the joints c_i of the platform and D_i = B_i - R(phi) c_i, the platform's point P is
+/// on three circles about D_i. Eliminating x and y leaves a trigonometric polynomial Q(phi) of
+/// degree 3, with at most six zeros. By Bernstein the k-th derivative is at most 3^k max|Q|.
+/// Intervals are halved until each is shown to have no zero, one or, on both sides of an extremum,
+/// two.
 namespace trammel::references {
 
 namespace {
@@ -92,7 +92,7 @@ struct Search {
   }
 
   /// Adds the zeros of Q in an interval in which Q' is monotonic. If Q has an extremum, the zeros
-  /// below and above the extremum are added.
+  /// before and after the extremum are added.
   void add_crossings(const Real& from, const Real& to) {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);

@@ -14,7 +14,7 @@ namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
 
-/// Quantities of the motion at one time, by name.
+/// Quantities of the motion of the manipulator at one time, by name.
 class Instant {
  public:
   Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
@@ -40,7 +40,7 @@ class Instant {
   [[nodiscard]] Real value(const std::string& name) const {
     const auto found = values_.find(name);
     if (found == values_.end()) throw DerivationError("/outputs: '" + name + "': no such quantity");
-    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // below: round-off
+    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // else round-off
   }
 
  private:

@@ -160,7 +160,8 @@ using SystemState = std::array<Real, 2 * kCoordinates>;
 using SystemMotion = std::array<Jet<Real>, kCoordinates>;
 using Six = Eigen::Matrix<Real, 6, 1>;
 
-/// Returns a displacement whose acceleration includes the damping force per unit mass.
+/// Returns the displacement u with u'' replaced by u'' + b u', which adds the damping force per
+/// unit mass with the coefficient b.
 Jet<Real> damped(const Jet<Real>& u, const Real& damping) {
   return {u.value, u.rate, u.acceleration + damping * u.rate};
 }
@@ -210,7 +211,7 @@ class Link {
     const std::array<Jet<Real>, 6> d = {c * u[0] + s * u[1], c * u[1] - s * u[0], u[2],
                                         c * u[3] + s * u[4], c * u[4] - s * u[3], u[5]};
     Six f = Six::Zero();
-    constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton-Cotes
+    constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton-Cotes rule
     for (std::size_t p = 0; p < N_.size(); ++p) {
       const auto& N = N_[p];
       Jet<Real> along = Real(length_ * p / 6) + N[0][0] * d[0] + N[0][3] * d[3], across;
@@ -345,8 +346,8 @@ class Links {
   std::vector<std::array<Link, 2>> links_;
 };
 
-/// Returns the states of the manipulator at given times. If the links rotate by about 1 rad, twelve
-/// integration steps of order 8 have an error of 1e-13.
+/// Returns the states of the manipulator at given times. If the links rotate by about 1 rad in
+/// twelve integration steps, Fehlberg's method of order 8 has an error of 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // steps between two successive times
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {

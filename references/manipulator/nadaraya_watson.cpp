@@ -8,7 +8,9 @@
 ///
 ///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2).
 ///
-/// Numerator and denominator are multiplied by exp(min D^2 / 2 s^2) to avoid underflow.
+/// The training sample i has the output Y_i and the distance D_i of its input from the input x, and
+/// s is the smoothing parameter. Numerator and denominator are multiplied by exp(min D_i^2 / 2 s^2)
+/// to avoid underflow.
 namespace trammel::references {
 
 namespace {

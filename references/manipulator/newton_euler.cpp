@@ -7,8 +7,9 @@ namespace trammel::references {
 
 namespace {
 
-/// Columns of the unknowns of a limb: the forces of the base on the proximal link (at A), of the
-/// proximal link on the distal link (at B), of the distal link on the platform (at C); the torque.
+/// Columns of the unknowns of a limb in the equations of motion: the forces of the base on the
+/// proximal link (at A), of the proximal link on the distal link (at B), of the distal link on the
+/// platform (at C); the torque.
 enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 
 /// Equations of motion of one body: force balance, and moment balance about its center of mass.

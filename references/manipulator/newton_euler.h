@@ -38,7 +38,7 @@ struct ManipulatorForces {
 };
 
 /// Computes the forces between platform and limbs, and the torques of the base on the three
-/// proximal links, counterclockwise, in SI.
+/// proximal links, counterclockwise [N, N m].
 /// @param motion  as in `limb_joints`
 /// @throws DerivationError  if a limb cannot reach its platform joint, or if the pose is singular.
 [[nodiscard]] ManipulatorForces newton_euler_forces(const ManipulatorNumbers& manipulator,

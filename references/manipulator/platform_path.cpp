@@ -87,7 +87,7 @@ RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const 
     A(n - 1, 0) = 1;
     A(n - 1, n - 1) = -1;
   }
-  return solve(A, b, "the spline has no solution");
+  return solve(A, b, "the conditions of the spline are singular");
 }
 
 Motion on_spline(const Arguments& spline, const Jet<Real>& t) {

@@ -5,9 +5,9 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Programs that derive motions of the planar 3-RRR manipulator, and estimates of them.
-/// programs.txt
-/// lists their arguments. Only arguments that need an explanation are described in this file.
+/// Programs that derive motions of the planar 3-RRR manipulator, and estimates of these motions by
+/// regression networks. programs.txt lists their arguments. Only arguments that need an explanation
+/// are described in this file.
 namespace trammel::references {
 
 /// Reads a manipulator from the keys "manipulator", as in a case file, and "gravity_m_s2".
@@ -55,20 +55,21 @@ namespace trammel::references {
 /// path. The load acts at P. Its factor load_history (time_s, factor) is linear between the times,
 /// and constant before the first and after the last time. The vibration starts at rest at the first
 /// of times_s. Output: displacement_x_m, displacement_y_m, platform_rotation_rad, kinetic_energy_J,
-/// axial_force_N:B1-C1 ... or torque_N_m:A1 .... Values: the output at each time.
+/// axial_force_N:B1-C1 ... or torque_N_m:A1 .... Values: the requested output at each time.
 [[nodiscard]] std::vector<Real> platform_vibration_program(const Arguments& arguments);
 
 /// Computes the estimates of a general regression neural network at each query. Arguments: inputs,
-/// outputs, queries (arrays of rows); sigma, or spread in the convention of MATLAB's newgrnn,
-/// exp(-(0.8326 D / spread)^2), where D is the distance between query and training input.
+/// outputs, queries (arrays of rows); the smoothing parameter sigma, or spread in the convention of
+/// MATLAB's newgrnn, exp(-(0.8326 D / spread)^2), where D is the distance between query and
+/// training input.
 [[nodiscard]] std::vector<Real> regression_network_program(const Arguments& arguments);
 
 /// Computes the angles or velocities of the active joints that a general regression neural network
 /// estimates. The network is trained with torques along the path that follow from the Newton-Euler
 /// equations. Point k of the path is at the time k step_s, and k starts from 0. Arguments: train
 /// (number of training samples, which are the first points of the path), sigma [N m], queries
-/// (numbers k of the points to estimate). Values: the estimates for A1 at each query, then for A2,
-/// then for A3 [rad or rad/s].
+/// (numbers k of the points at which the network estimates). Values: the estimates for A1 at each
+/// query, then for A2, then for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -29,7 +29,7 @@ class Arguments {
   /// @param pointer  JSON pointer to the object, for error messages.
   /// @throws DerivationError  if `object` is not an object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
-  /// Creates arguments from an object whose keys are arbitrary names, such as names of nodes.
+  /// Creates arguments from a JSON object whose keys are arbitrary names, such as names of nodes.
   Arguments(const Json& object, std::string pointer);
 
   [[nodiscard]] const Json& json() const { return object_; }
@@ -37,7 +37,7 @@ class Arguments {
   [[nodiscard]] const Json& operator[](const std::string& key) const;
   [[nodiscard]] std::string pointer(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
-  /// Returns the object at a key. Its keys must be in `known`.
+  /// Returns the JSON object at a key. The keys of this object must be in `known`.
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
@@ -60,7 +60,7 @@ class Arguments {
   [[nodiscard]] std::vector<std::array<Real, 2>> points(const std::string& key,
                                                         std::size_t size) const;
   [[nodiscard]] std::array<Real, 2> point(const std::string& key) const;
-  /// Returns a point, which is the origin if the key is missing.
+  /// Returns the point [x, y] at a key, or the origin if the key is missing.
   [[nodiscard]] std::array<Real, 2> point_or_origin(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
 

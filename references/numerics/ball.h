@@ -27,7 +27,8 @@ class Ball {
 
   /// Returns the center of the ball as an exact number.
   [[nodiscard]] Ball middle() const;
-  /// Returns the number with 30 digits, such as "1.87510406871196116644530824107".
+  /// Returns the number that the ball encloses as text with 30 digits, such as
+  /// "1.87510406871196116644530824107".
   /// @throws DerivationError  if the radius is too large to determine 30 digits.
   [[nodiscard]] std::string digits() const;
   /// Returns the only integer in the ball.

@@ -56,7 +56,8 @@ class Parser {
     return true;
   }
 
-  /// Evaluates operators whose precedence is at least `rank`: 1 for + and -, 2 for * and /.
+  /// Evaluates operators whose precedence is at least `rank`. The precedence is 1 for + and -, and
+  /// 2 for * and /.
   Real operation(int rank) {
     if (rank > 2) return power();
     Real value = operation(rank + 1);

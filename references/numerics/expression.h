@@ -7,9 +7,9 @@
 #include "references/numerics/arguments.h"
 #include "references/numerics/real.h"
 
-/// Formulas in the text of a reference file. They may contain numbers, names, + - * / ^ (right to
-/// left), unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan,
-/// sinh, cosh, tanh.
+/// Formulas in the text of a reference file. They may contain numbers, names, + - * / ^ (evaluated
+/// from right to left), unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin,
+/// acos, atan, sinh, cosh, tanh.
 namespace trammel::references {
 
 /// Returns the value of a formula. `values` contains the values of the names in the text.

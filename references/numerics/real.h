@@ -19,8 +19,8 @@ template <class T>
   return value;
 }
 
-/// Returns the function C at x and its integral S from 0 to x. If k^2 > 0, C is cosh(k x), and both
-/// values are divided by cosh(k x). Otherwise C is cos(|k| x).
+/// Returns the function C at x and its integral S from 0 to x, for a given k^2. If k^2 > 0, C is
+/// cosh(k x), and both values are divided by cosh(k x). Otherwise C is cos(|k| x).
 template <class T>
 [[nodiscard]] std::array<T, 2> scaled_cosine_and_integral(const T& k2, const T& x) {
   using std::cos, std::sin, std::sqrt, std::tanh;

@@ -67,7 +67,7 @@ bool print_comparison(const Comparison& comparison, std::ostream& out) {
   out << " by " << comparison.program << "\n";
   print_values(comparison, out);
   print_proved(comparison, out);
-  out << "  " << (comparison.within_uncertainty() ? "holds" : "DOES NOT HOLD") << "\n";
+  out << "  " << (comparison.within_uncertainty() ? "confirmed" : "NOT CONFIRMED") << "\n";
   return comparison.within_uncertainty();
 }
 

@@ -44,9 +44,9 @@ class Proof {
     return stiffness_.wittrick_williams(variable_.w(x)).below;
   }
 
-  /// Encloses the next x at which the count of natural frequencies increases, by bisection to its
-  /// 32nd digit. The count does not change between the previous enclosure and the new enclosure, so
-  /// that no frequency is missed.
+  /// Encloses the next x at which the count of natural frequencies increases, by bisection to the
+  /// 32nd digit of x. The count does not change between the previous enclosure and the new
+  /// enclosure, so that no natural frequency is missed.
   /// @param x  approximation of the result
   Passage next(const Ball& x) {
     Ball width = x * Ball(Real("1e-18"));

@@ -49,13 +49,14 @@ std::string statistic_text(const std::string& statistic) {
   return separators_to_spaces(statistic);
 }
 
-/// Returns the number of digits that show the difference of a ratio from 1.
+/// Returns the number of significant digits that a ratio requires so that its text differs from
+/// "1".
 int ratio_digits(double ratio) {
   return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
-/// Returns a tolerance limit or a difference as text: as a percentage, as a ratio, or with its
-/// unit, depending on the measure of the check.
+/// Returns a tolerance limit or a difference as text. The text is a percentage, a ratio, or a
+/// number with its unit, as the key "measure" of the check requires.
 std::string measured_text(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return percent_text(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
@@ -95,8 +96,8 @@ std::string target_text(const Check& check) {
 
 std::string computed_text(const Check& check) {
   if (check.measure == "status") return check.message.substr(0, check.message.find(':'));
-  if (check.measure == "validation" && check.verdict == Verdict::pass) return "the same";
-  if (check.measure == "validation" && check.verdict == Verdict::fail) return "different";
+  if (check.measure == "validation" && check.verdict == Verdict::pass) return "same as recorded";
+  if (check.measure == "validation" && check.verdict == Verdict::fail) return "not as recorded";
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
@@ -111,8 +112,8 @@ std::string difference_text(const Check& check, double difference) {
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
     // A value with only an upper limit is shown as its fraction of the limit: "12 % of limit". A
-    // value with a lower limit is shown as "within" or "outside" its limits. The limits of a known
-    // discrepancy are recorded values.
+    // value with a lower limit is shown as "within" or "outside" its limits. For a known
+    // discrepancy, the limits are the recorded range of the value.
     const double used = difference_over_tolerance(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low && used > 1) return "outside";
@@ -142,7 +143,7 @@ std::string quantity_text(const Check& check) {
   if (check.measure == "validation") return "verdicts of ASME V&V 20 on " + text;
   if (check.measure == "order") return "order of convergence of " + text;
   if (check.measure == "leading-term")
-    return "error of " + text + " over the theoretical leading term";
+    return "ratio of the error of " + text + " to the theoretical leading error term";
   if (is_extrapolated(check)) text = "extrapolated " + text;
   if (!check.statistic.empty()) text = statistic_text(check.statistic) + " of " + text;
   if (!check.against_quantity.empty())
@@ -171,7 +172,7 @@ std::string failure_text(const CheckGroup& group) {
     const std::string entry = entry_text(worst, group.checks.size());
     if (!entry.empty()) text += entry + ", ";
   }
-  if (!worst.computed) return text + (worst.message.empty() ? "nothing computed" : worst.message);
+  if (!worst.computed) return text + (worst.message.empty() ? "no computed value" : worst.message);
   text += "computed " + computed_text(worst) + " against " + target_text(worst);
   if (worst.measure != "bound")
     text += ", " + difference_text(worst) + " where " + tolerance_text(worst) +
@@ -182,7 +183,7 @@ std::string failure_text(const CheckGroup& group) {
 std::string work_counters_text(const Counters& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
-    if (n == 0 && name == "steps") continue;  // omitted, because most runs have no steps
+    if (n == 0 && name == "steps") continue;  // zero load or time steps are not shown
     std::string digits = std::to_string(n);
     for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
       digits.insert(static_cast<std::size_t>(place), "\u202f");

@@ -24,8 +24,8 @@ enum class CheckStatus {
   not_given
 };
 
-/// Text, CSS class and symbol of a status. The symbol, such as ✓, shows the status without color.
-/// The page lists statuses of higher severity first.
+/// Text, CSS class and symbol of a status. The symbol, such as ✓, shows the status without color. A
+/// report page lists statuses of higher severity first.
 struct StatusStyle {
   CheckStatus status;
   const char *text, *css_class, *sign;
@@ -45,21 +45,22 @@ static_assert(kStatusStyles.back().status == static_cast<CheckStatus>(kStatusSty
 static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
 [[nodiscard]] const StatusStyle& style_of(CheckStatus status);
 
-/// Returns true if a check fails, ends with an error, or has a known discrepancy outside its range.
+/// Returns true if a check fails, ends with an error, or has a known discrepancy outside its
+/// recorded range.
 [[nodiscard]] bool is_failure(CheckStatus status);
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// Returns the status of a run by its end: solved, singular matrix, no convergence or error. A run
-/// that ends with a singular matrix or without convergence passes if it has checks and all checks
-/// pass, because its case then expects this end.
+/// Returns the status of the run of a case from the status of its solution: solved, singular
+/// matrix, no convergence or error. A run with a singular matrix or without convergence passes if
+/// it has checks and all its checks pass. Its case then expects this status.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// Number of checks of each status.
+/// Number of checks with each status.
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
 /// Adds the numbers of checks of a run to `counts`. A check of several values counts once, with the
-/// status of its worst value.
+/// status of its worst value: the most severe status among the values.
 void add_check_counts(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
@@ -70,15 +71,16 @@ void add_check_counts(Counts& counts, const Run& run);
 [[nodiscard]] std::string difference_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 
-/// Returns the difference from the target in the measure of the check: relative "+26 %", absolute
-/// "−3 × 10⁻⁸ N", or as a ratio "× 1.02".
+/// Returns a difference from the target, in the form that the key "measure" of the check names:
+/// relative "+26 %", absolute "−3 × 10⁻⁸ N", or as a ratio "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
-/// Returns true if a check compares a number with a tolerance. Statuses and known discrepancies do
-/// not.
+/// Returns true if a check compares a number with a tolerance. It returns false for checks of a
+/// status and for checks with a known discrepancy.
 [[nodiscard]] bool is_numeric(const Check& check);
 
-/// Returns the comparison of the difference of a check with its validation uncertainty, or null.
+/// Returns the comparison of the difference of a check with its validation uncertainty. Returns
+/// null if the run has no such comparison.
 [[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
 
 /// Returns the title of the check, or its name if it has none.
@@ -93,7 +95,8 @@ void add_check_counts(Counts& counts, const Run& run);
 /// @param entries  number of checked values of the quantity
 [[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
-/// Returns one line about a check that fails: its number of failed values, and the worst value.
+/// Returns one line about a check that fails: the number of its values that fail, and the value
+/// with the most severe result.
 [[nodiscard]] std::string failure_text(const CheckGroup& group);
 
 /// Returns the counted work of a run: "192 element evaluations, 2 factorizations".

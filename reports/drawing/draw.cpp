@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the gnuplot settings of all figures. Texts have no markup (noenhanced).
+/// Returns the gnuplot settings that all figures share. Gnuplot prints texts without interpreting
+/// markup (noenhanced).
 std::string preamble(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
   out << "reset session\n"
@@ -44,10 +45,12 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
   return out.str();
 }
 
-/// Returns SVG attributes with the ranges, pixel positions and labels of both axes. The script of
-/// the page uses them to show the values of a curve at the pointer. The text is empty if an axis
-/// has no label, or if both axes have the same scale, because such drawings show positions.
-/// @param extent  file by gnuplot with the ranges of x and y, and their pixel positions (y upwards)
+/// Returns SVG attributes with the ranges, pixel positions and labels of both axes. The script
+/// page.js uses them to show the values of a curve at the mouse pointer. The returned text is empty
+/// if an axis has no label. It is also empty if both axes have the same scale, because such
+/// drawings show a mechanism, not curves.
+/// @param extent  file that gnuplot wrote, with the ranges of x and y, and their pixel positions (y
+/// upwards)
 std::string axes_of(const Figure& figure, const fs::path& extent) {
   const auto label = [&](const std::string& start) {
     const std::size_t at = figure.commands.find(start), from = at + start.size();
@@ -76,7 +79,8 @@ fs::path svg_path(const fs::path& folder, const Figure& figure) {
   return folder / (figure.id + ".svg");
 }
 
-/// Returns the first lines of an SVG file, with a hash of the drawing and of its inputs.
+/// Returns the first lines of an SVG file, with a hash of the drawing, its gnuplot commands and its
+/// texts.
 std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
   const std::string all =
       program + preamble(figure, "/") + figure.commands + figure.title + figure.alt + svg;
@@ -86,7 +90,8 @@ std::string head_of(const Figure& figure, const std::string& program, const std:
 }
 
 /// Reads an earlier drawing of the figure.
-/// @returns true if it exists, is complete, and was drawn from the same inputs by the same program.
+/// @returns true if the drawing exists, is complete, and has the same gnuplot commands and texts.
+/// It must also be from the same version of this program.
 bool reuse_drawing(const fs::path& former, const std::string& program, Figure& figure) {
   const fs::path path = svg_path(former, figure);
   if (!fs::is_regular_file(path)) return false;
@@ -101,13 +106,15 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   if (figures.empty()) return;
   const auto extent_path = [&](const Figure& figure) { return folder / (figure.id + ".extent"); };
   for (const Figure* figure : figures) fs::remove(svg_path(folder, *figure));
-  // If gnuplot closes its pipe, writing to the pipe fails instead of ending the program.
+  // Ignores SIGPIPE. If gnuplot closes its pipe, writing to the pipe then fails instead of ending
+  // this program.
   const auto previous = std::signal(SIGPIPE, SIG_IGN);
   {
-    // With -d, gnuplot ignores the settings of the user; `timeout` ends it if it hangs.
+    // With -d, gnuplot ignores the settings of the user. The command `timeout` ends gnuplot if it
+    // hangs.
     const std::string command =
         "timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d";
-    std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // both draw concurrently
+    std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // two concurrent processes
     std::size_t number = 0;
     for (const Figure* figure : figures)
       both[number++ % 2]
@@ -122,7 +129,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     const std::string drawn = fs::exists(path) ? read_file(path) : "";
     if (drawn.find("</svg>") == std::string::npos)  // gnuplot does not report write errors
       throw std::system_error(EIO, std::generic_category(),
-                              path.string() + ": the drawing is incomplete");
+                              path.string() + ": gnuplot wrote an incomplete drawing");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
     figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
     fs::remove(extent_path(*figure));
@@ -166,7 +173,7 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
-    if (!figure->moving.empty() && !figure->is_linked)  // the script cannot animate linked files
+    if (!figure->moving.empty() && !figure->is_linked)  // page.js animates only inlined SVG
       figure->svg.insert(figure->svg.rfind("</svg>"),
                          "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }

@@ -8,18 +8,19 @@
 
 namespace trammel::reports {
 
-/// A figure: commands for gnuplot or the drawing itself, and its data as a table.
+/// A figure of the report: gnuplot commands or the finished SVG drawing, and the plotted data as a
+/// table.
 struct Figure {
   std::string id;        ///< slug for the names of files and the anchor, unique within the report
   std::string title;     ///< subject of the figure
   std::string caption;   ///< plotted data, then the conclusion
   std::string alt = {};  ///< description of the picture for screen readers
-  int width = 500, height = 360;  ///< size before scaling to the column [px]
+  int width = 500, height = 360;  ///< size before the page scales it [px]
   std::string commands = {};      ///< gnuplot commands of a PlotScript
   Table data;
-  std::string moving = {};  ///< JSON of a motion for the script of the page; empty: no motion
-  bool is_linked = false;   ///< the page loads the drawing when it comes into view
-  std::string svg = {};     ///< the drawing as an element with unique ids
+  std::string moving = {};  ///< animation as JSON, for page.js; empty: no animation
+  bool is_linked = false;   ///< true: the page loads the SVG file when the reader scrolls to it
+  std::string svg = {};     ///< drawing as an <svg> element; its ids are unique on the page
 };
 
 /// Converts a text to at most 100 lower-case letters, digits and single hyphens. If this changes
@@ -29,8 +30,8 @@ struct Figure {
 /// Returns whether gnuplot is installed.
 [[nodiscard]] bool has_gnuplot();
 
-/// Draws the figures that have no drawing yet with two gnuplot processes. Sets `svg`, and writes
-/// <id>.svg and <id>.csv for each figure into `folder`.
+/// Draws the figures whose `svg` is empty, with two concurrent gnuplot processes. Sets `svg`, and
+/// writes <id>.svg and <id>.csv for each figure into `folder`.
 /// @param cache   folder of earlier drawings, which are reused if unchanged; empty: no reuse
 /// @param program  version of this program; drawings of other versions are not reused
 /// @throws std::runtime_error  if a figure cannot be drawn or written.
@@ -44,7 +45,7 @@ void draw(const std::vector<Figure*>& figures, const std::filesystem::path& fold
 [[nodiscard]] std::string tidy_svg(const std::string& text, const std::string& id,
                                    const std::string& title, const std::string& description);
 
-/// Returns an <svg> element with the attributes of all drawings.
+/// Returns an <svg> element with the attributes that all drawings share, such as the font.
 /// @param attributes  further attributes, each with a space before it
 [[nodiscard]] std::string svg_element(const std::string& view_box, const std::string& label,
                                       const std::string& body, const std::string& attributes = "");

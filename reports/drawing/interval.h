@@ -17,7 +17,7 @@ struct Interval {
     low = std::min(low, *x);
     high = std::max(high, *x);
   }
-  /// Extends the range to x / factor and x * factor, for a positive number x.
+  /// Extends the range so that it includes x / factor and x * factor, for a positive number x.
   void cover_around(double x, double factor) {
     cover(x / factor);
     cover(x * factor);

@@ -10,9 +10,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxKeyCharacters = 38;  ///< longer titles do not fit into the key
+constexpr std::size_t kMaxKeyCharacters = 38;  ///< longer titles do not fit into the legend
 
-/// Returns a data row. If a number is not finite, the row is empty, which interrupts the curve.
+/// Returns the numbers of a data row as text for gnuplot. If a number is not finite, the text is
+/// empty, which interrupts the curve.
 std::string row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {
@@ -22,7 +23,7 @@ std::string row_text(const std::vector<double>& row) {
   return out;
 }
 
-/// Returns whether a byte starts a character of UTF-8.
+/// Returns true if a byte is the first byte of a UTF-8 character.
 bool starts_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
 }
@@ -44,7 +45,8 @@ std::string gnuplot_string(const std::string& text) {
 std::string gnuplot_path(const std::filesystem::path& path) {
   std::string out = "\"";
   for (const char c : std::filesystem::absolute(path).string()) {
-    // Gnuplot would read a digit after an octal escape as a part of the escape.
+    // Digits are escaped, too. Gnuplot would read a digit after an octal escape as a part of the
+    // escape.
     if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' || c == '-') {
       out += c;
       continue;
@@ -57,7 +59,7 @@ std::string gnuplot_path(const std::filesystem::path& path) {
 }
 
 std::string tic(const std::string& text, double at) {
-  std::string format;  // gnuplot interprets labels as formats
+  std::string format;  // gnuplot interprets tick labels as printf formats
   for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
   return gnuplot_string(format) + " " + shortest_decimal(at);
 }

@@ -17,16 +17,16 @@ namespace trammel::reports {
 /// Returns a tick mark with its text and position, for the gnuplot command `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
 
-/// Returns a text that is shortened to at most `max_characters` characters. A shortened text ends
-/// with an ellipsis.
+/// Returns a text without its characters beyond `max_characters`. A shortened text ends with an
+/// ellipsis.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
 [[nodiscard]] std::size_t character_count(const std::string& utf8);
 
 /// Returns the line color as an option of gnuplot: " lc rgb '#1f5fa8'".
 [[nodiscard]] std::string lc(const std::string& color);
 
-/// Collects the data and commands of one figure. All texts of results pass through
-/// `gnuplot_string`, so that a text cannot become a command.
+/// Collects the data and commands of one figure. All texts from results pass through
+/// `gnuplot_string`, so that a text cannot become a gnuplot command.
 class PlotScript {
  public:
   /// Rows of data points. An empty row interrupts a curve.
@@ -34,8 +34,8 @@ class PlotScript {
 
   void command(const std::string& line);
 
-  /// Adds a curve to the current plot if it has rows. A curve without a title has no entry in the
-  /// legend.
+  /// Adds a curve to the current plot unless `rows` is empty. A curve without a title has no entry
+  /// in the legend.
   /// @param style  gnuplot options of the curve: "using 1:2 with lines lw 2"
   void curve(const Rows& rows, const std::string& style, const std::string& title = "");
 
@@ -43,7 +43,7 @@ class PlotScript {
   void key_entry(const std::string& style, const std::string& title);
 
   /// Adds a text to the plot.
-  /// @param place  position and options of gnuplot: "graph 0.1,0.2 left"
+  /// @param place  position and options of the text in gnuplot's syntax: "graph 0.1,0.2 left"
   void label(const std::string& text, const std::string& place);
 
   /// Plots all curves that were added since the last call. At least one curve is required.

@@ -50,21 +50,21 @@ void shorten_colors(std::string& text) {
 }
 
 /// Removable SVG attributes that gnuplot repeats for every group. Each is set on the root element,
-/// is a default, or has no effect, because every path, point and text has a color.
+/// is a default, or has no effect, because every path, point and text has its own color.
 constexpr const char* kCommonAttributes =
     R"(fill="none" stroke-linecap="butt" stroke-linecap="round" stroke-linejoin="miter"
        stroke-linejoin="round" stroke-width="1.00" font-family="Helvetica" font-size="15.00"
        color="black" stroke="currentColor" stroke="none" class="gridline" text-anchor="middle")";
 
-/// Simplifies the lines of an SVG path and rounds coordinates to tenths of a unit. Lines of a
-/// single point are omitted.
+/// Simplifies the lines of an SVG path and rounds coordinates to 0.1 px. Lines of a single point
+/// are omitted.
 std::string short_path(const std::string& path) {
   using Line = boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>>;
   std::string out;
   Line line;
   const auto end_line = [&] {
     Line kept;
-    boost::geometry::simplify(line, kept, 0.1);  // largest distance of an omitted point
+    boost::geometry::simplify(line, kept, 0.1);  // largest distance of an omitted point [px]
     for (std::size_t i = 0; kept.size() > 1 && i < kept.size(); ++i)
       out += (i == 0 ? "M" : " ") + shortest_decimal(std::round(10 * kept[i].x()) / 10) + ',' +
              shortest_decimal(std::round(10 * kept[i].y()) / 10);
@@ -107,13 +107,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Removes empty groups from an SVG drawing, and the tags of groups without attributes.
+/// Removes empty groups (<g> elements) from an SVG drawing. For groups without attributes, removes
+/// the tags and keeps the content.
 std::string without_idle_groups(std::string text) {
   replace_all(text, "<g", "\n<g");
   replace_all(text, "</g>", "\n</g>\n");
   constexpr auto kNoTag = std::string::npos;
   std::vector<std::string> kept;
-  std::vector<std::size_t> groups;  // lines that open the enclosing groups
+  std::vector<std::size_t> groups;  // indices in `kept` of the open <g> tags
   for (std::string& line : lines_of(text)) {
     const bool closes = line == "</g>";
     const std::size_t start = closes && !groups.empty() ? groups.back() : kNoTag;

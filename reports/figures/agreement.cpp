@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMinEntries = 3, kMaxEntries = 16;
 
-/// Computed values of a run that are compared with the values of one published reference.
+/// Checks that compare computed values of a run with the values of one published reference.
 struct PrintedRow {
   std::string reference;
   std::vector<const Check*> entries;

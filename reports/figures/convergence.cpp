@@ -20,7 +20,8 @@ constexpr double kSmallestDrawnError = 1e-17;  ///< smaller errors are drawn at 
 
 using Sweeps = std::vector<const Convergence*>;
 
-/// Returns relative errors: from the exact value or, without one, from the extrapolated value.
+/// Returns the relative errors of the computed values at all refinement levels. The errors are
+/// differences from the exact value or, without one, from the Richardson-extrapolated value.
 Numbers errors_of(const Convergence& c) {
   Numbers errors = c.error;
   const bool given = std::ranges::any_of(errors, &Number::has_value);
@@ -34,7 +35,8 @@ double drawn_error(double error) {
   return std::max(std::abs(error), kSmallestDrawnError);
 }
 
-/// Returns the largest estimate of the round-off error at each refinement level.
+/// Returns the largest estimate of the relative round-off error among all values at each refinement
+/// level.
 PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
   std::map<double, Interval> roundoff;
   for (const Convergence* c : sweeps)
@@ -45,7 +47,8 @@ PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
   return rows;
 }
 
-/// Returns the title of a curve in the key, with its fitted order: "mode 3: 3.99".
+/// Returns the title of a curve in the legend, with its fitted order of convergence: "mode 3:
+/// 3.99".
 std::string series_title(const Convergence& c, bool alone) {
   std::string title = c.quantity.starts_with("frequency") ? "mode " : "entry ";
   title = alone ? to_text(parse_quantity(c.quantity)) : title + std::to_string(c.index + 1);
@@ -71,8 +74,8 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
 }
 
-/// Draws a line with the theoretical slope below the asymptotic range of a curve. Selects the first
-/// curve with an asymptotic range.
+/// Draws a line with the theoretical slope below the first curve with an asymptotic range, along
+/// this range.
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   PlotScript::Rows line;
   for (const Convergence* c : sweeps) {
@@ -90,8 +93,8 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
   script.curve(line, "with lines lw 1.4 dt 2" + lc(palette::kInk), "order " + trimmed(theory, 3));
 }
 
-/// Reports the fitted and the theoretical orders of convergence. If the theoretical error has terms
-/// of two orders, it reports the misfit of the two-term law instead.
+/// Returns a sentence on the fitted and the theoretical order of convergence. If the theoretical
+/// error is a h^p + b h^q, the sentence states the misfit of this two-term law instead.
 std::string conclusion(const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool mixed = first.lower_order && first.theory_order;
@@ -113,8 +116,8 @@ std::string conclusion(const Sweeps& sweeps) {
   };
   if (fitted == 0)
     return std::ranges::any_of(sweeps, is_asymptotic)
-               ? "Too few levels lie in the asymptotic range to fit an order."
-               : "No level lies in the asymptotic range.";
+               ? "Too few refinement levels lie in the asymptotic range to fit an order."
+               : "No refinement level lies in the asymptotic range.";
   if (mixed)
     return which + " follows the law a h^" + trimmed(*first.theory_order, 3) + " + b h^" +
            trimmed(*first.lower_order, 3) + ", with the mesh or step size h, within " +

@@ -50,7 +50,7 @@ std::vector<const CostSetting*> curves_of(const CostStudy& study) {
 }
 
 /// Returns the Pareto front as steps: the time of the cheapest setting for each permitted error.
-/// @param right  largest error of the curve
+/// @param right  largest error, at which the last step ends
 PlotScript::Rows steps_of(const CostStudy& study, double right) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
@@ -65,7 +65,7 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
   return rows;
 }
 
-/// Draws the curve of error and time that starts with a setting.
+/// Draws the curve of computing time against error for all settings of one curve of the cost study.
 /// @param first  first setting of the curve
 void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
                 std::size_t number) {

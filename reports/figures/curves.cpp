@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 
-/// A curve of a figure: the values of one quantity of one variant.
+/// A curve of a figure: the values of one quantity of one variant of the case.
 struct Series {
   std::string quantity, variant, label;
   std::size_t color, dash;
@@ -25,7 +25,8 @@ struct Series {
   double largest = 0;
 };
 
-/// Returns the number to draw for a value. A logarithmic axis shows magnitudes and omits zeros.
+/// Returns the number that an axis shows for a value. A logarithmic axis shows magnitudes and omits
+/// zeros.
 Number drawn_number(const Number& value, bool log) {
   if (!value || !log) return value;
   return *value == 0 ? Number() : Number(std::abs(*value));
@@ -54,7 +55,8 @@ bool has_any(const Run& run, const std::vector<std::string>& names) {
   });
 }
 
-/// Returns the words that distinguish the name of a quantity from other names in the plot.
+/// Returns the words that distinguish the name of a quantity from the names of the other plotted
+/// quantities.
 std::string distinguishing_words(const std::string& name, const PlotRequest& request) {
   const QuantityLabel quantity = parse_quantity(name);
   const bool one_label = std::ranges::all_of(
@@ -64,7 +66,7 @@ std::string distinguishing_words(const std::string& name, const PlotRequest& req
 
 /// Returns the requested quantities of the requested variants. Each variant must have at least one
 /// quantity, and at least one variant must have each quantity. Units and lengths must agree.
-/// @param problem  set to the reason if there is nothing to draw
+/// @param problem  set to the reason if the figure cannot be drawn
 std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& request,
                                    const std::vector<std::string>& variants,
                                    const std::vector<const Run*>& runs, std::string& problem) {
@@ -80,7 +82,7 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
       if (!run) {
         problem = "there is no run of the variant " + variant;
       } else if ((!values || values->empty()) && has_any(*run, request.y)) {
-        continue;  // another quantity represents the variant
+        continue;  // the variant has another quantity
       } else if (!values || values->empty()) {
         problem = "the variant " + variant + " has no " + y;
       } else if (!request.x.empty() && !x) {
@@ -106,7 +108,7 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
       return {};
     }
   }
-  if (series.empty()) problem = "the figure names no quantity";
+  if (series.empty()) problem = "the case requests the figure without a quantity";
   return series;
 }
 
@@ -119,7 +121,8 @@ std::string common_end(const std::string& a, const std::string& b) {
   return end.find(' ') == std::string::npos ? "" : end.substr(end.find(' ') + 1);
 }
 
-/// Returns a label for several quantities: the words at the end of all names, or else "value".
+/// Returns an axis label for several quantities: the last words that all names have in common, or
+/// else "value".
 std::string common_words(const std::vector<std::string>& names) {
   if (names.size() == 1) return to_text(parse_quantity(names.front()));
   std::string common = parse_quantity(names.front()).label;
@@ -139,8 +142,8 @@ void set_range(PlotScript& script, const std::string& axis,
   if (!log && range.length() > 0) script.range(axis, range.low, range.high);
 }
 
-/// Returns "Largest magnitude: 8.13 mm (base)." The unit is that of the axis, without powers of
-/// ten.
+/// Returns "Largest magnitude: 8.13 mm (base)." The unit is that of the y axis. If the axis label
+/// has a power of ten, the unit is unscaled.
 std::string largest_magnitude_text(const std::vector<Series>& series, const Scale& axis,
                                    const std::string& unit) {
   const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
@@ -233,7 +236,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
                             : readable_scale(x.unit, harness::max_abs(*x_values));
 
   PlotScript script;
-  script.axis_label("x", request.x.empty() ? "number" : axis_label(to_text(x), x_scale.unit));
+  script.axis_label("x", request.x.empty() ? "index" : axis_label(to_text(x), x_scale.unit));
   const std::string words = common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
@@ -250,7 +253,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
                 .title = request.title,
                 .caption = request.caption + (request.caption.empty() ? "" : " ") + largest_text,
                 .alt = "Curves of " + words + " over " +
-                       (request.x.empty() ? "number" : to_text(x)) + ". " + largest_text,
+                       (request.x.empty() ? "index" : to_text(x)) + ". " + largest_text,
                 .height = 345 + key_height,
                 .commands = script.commands(),
                 .data = table_of(series, runs, request)};

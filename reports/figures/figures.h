@@ -8,7 +8,8 @@
 #include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
-/// Functions that plan figures. The figures are drawn later.
+/// Functions that prepare the gnuplot commands and data of figures. The function `draw` draws the
+/// figures later.
 namespace trammel::reports {
 
 /// Figure of published values and of the computed values of a run with their uncertainty. Empty if
@@ -30,7 +31,8 @@ namespace trammel::reports {
 /// Returns the run of a variant, or nullptr if there is no such run.
 [[nodiscard]] const Run* find_run(const std::vector<const Run*>& runs, const std::string& variant);
 
-/// Figure of curves that a case requests. @param problem  reason if the figure cannot be drawn
+/// Figure of curves that a case requests. @param problem  set to the reason if the figure cannot be
+/// drawn
 [[nodiscard]] std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
@@ -45,11 +47,12 @@ namespace trammel::reports {
 /// this change.
 [[nodiscard]] std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes);
 
-/// Figure of stated against true discretization errors, from the slow test of error estimates.
+/// Figure of estimated ("stated") against true discretization errors, which
+/// tests/harness/studies/error_coverage_test.cpp measured.
 [[nodiscard]] Figure error_coverage_figure();
 
 /// Figure of processor time and counted work of the calls in a history file, relative to the first
-/// call. Calls with failures are marked.
+/// call. Calls with failed checks are marked.
 [[nodiscard]] Figure call_history_figure(const History& history);
 
 /// Colored map of a quantity over positions for one variant, as requested by a case. The curves of
@@ -62,7 +65,7 @@ namespace trammel::reports {
 /// poses, the other poses are drawn behind the first.
 [[nodiscard]] std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run);
 
-/// Figure of instants of a motion with magnified deflections, which the script of a page animates.
+/// Figure of instants of a motion with magnified deflections, which the script page.js animates.
 /// Empty if there are fewer than two instants.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
@@ -72,7 +75,7 @@ namespace trammel::reports {
 /// Figure of the differences of all checks of a family, divided by their tolerances. Known
 /// discrepancies and statuses are omitted.
 /// @param titles        titles of the cases, by case id
-/// @param largest_only  one point for each case, without labels
+/// @param largest_only  true: one point for each case (its largest difference), without labels
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,
     const std::vector<const Run*>& runs, bool largest_only = false);

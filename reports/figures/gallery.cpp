@@ -12,11 +12,12 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnVariants = 12;  ///< maximum number of figures of shapes in a case
+constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of variants with shape figures
 
-/// Plans the figures of a case. The page shows the sketch and up to three more figures: effects,
-/// the first of the values (compared values, or a request of the case), the motion or the shapes of
-/// the first run that has them, and the first refinement study. Further figures are folded.
+/// Plans the figures of a case. The page shows the sketch of the model, and the first figure of up
+/// to three of four groups. The groups, in this order, are: mechanical effects; values (printed
+/// against computed values, and figures that the case requests); motions and shapes; refinement
+/// studies. All other figures are in a part of the page that is closed at first.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
@@ -41,7 +42,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
                                " of " + count(variants, "variant") + ".");
   if (motions > 1)
     gallery.problems.push_back("The motion of one of " + count(motions, "variant") +
-                               " is drawn; 'run --vtk' writes the others.");
+                               " is drawn; 'run --vtk' writes the other motions.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;
@@ -59,15 +60,15 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-/// A group of families on the front page. A family belongs to the first group with a word that the
-/// family's id contains.
+/// A group of case families on the front page. A family belongs to the first group with a word that
+/// the family's id contains.
 struct FamilyGroup {
   const char* title;
   std::vector<const char*> words;
 };
 
-/// Sets the group and the position of a family. A family without a group, such as a user's own
-/// cases, is last.
+/// Sets the group of a case family, and its position in the report. A family without a group, such
+/// as a user's own cases, is last.
 void set_group(Family& family) {
   static const std::vector<FamilyGroup> groups = {
       {"Manipulator", {"manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid"}},

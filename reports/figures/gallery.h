@@ -9,14 +9,15 @@
 
 namespace trammel::reports {
 
-/// Figures of a case: the sketch of the model (at most one), figures that its page shows openly or
-/// in folded parts, and reasons for figures that cannot be drawn.
+/// Figures of a case: the sketch of the model (at most one), figures that the page of the case
+/// shows at once, and figures in a part of this page that is closed at first. Problems are the
+/// reasons for figures that cannot be drawn.
 struct Gallery {
   std::vector<Figure> sketch, shown, folded;
   std::vector<std::string> problems;
 };
 
-/// A family of cases with their runs and all figures.
+/// A family of cases, with the runs and figures of its cases.
 struct Family {
   std::string id, title;
   std::string group = {};    ///< title of a group of families on the front page

@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Cell of a map: a value at a position, and the index of its color.
+/// Cell of a colored map: the value of a quantity at a position, and the index of its color.
 struct Cell {
   double x, y, value;
   std::size_t color = 0;
@@ -22,7 +22,7 @@ struct Field {
   double dx = 0, dy = 0;
 };
 
-/// Returns the smallest distance between two different coordinates.
+/// Returns the smallest nonzero difference of two of the coordinates.
 double spacing(std::vector<double> values) {
   std::ranges::sort(values);
   const double extent = values.back() - values.front();
@@ -138,7 +138,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
     const PlotRequest::Line& line = request.lines[i];
     const std::vector<double>* x = run.quantity(line.x);
     const std::vector<double>* y = run.quantity(line.y);
-    if (!x || !y) continue;  // the run has no values of this line
+    if (!x || !y) continue;  // the run has no values of this curve
     const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
     script.curve(line_rows(*x, *y), style);
     script.key_entry(style, line.title);
@@ -171,8 +171,8 @@ struct ColorClasses {
   [[nodiscard]] std::string describe(std::size_t of_this_map) const {
     return std::string(negative || positive ? "; values far from zero are dark"
                                             : "; high values are dark") +
-           (count == of_this_map ? ". Each class has about the same number of positions."
-                                 : ". All maps of this quantity have the same classes.");
+           (count == of_this_map ? ". Each color covers about the same number of positions."
+                                 : ". All maps of this quantity have the same color scale.");
   }
 
   std::size_t count;

@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Drawing of one type of joint: point type of gnuplot, and text in the key.
+/// Symbol of one type of joint: gnuplot point type, and text in the legend.
 struct JointSymbol {
   const char *kind, *words;
   int point;
@@ -53,7 +53,8 @@ void write_at(PlotScript& script, double x, double y, const std::string& text, c
                          " center front textcolor rgb '" + color + "'");
 }
 
-/// Writes the name of each joint on the side away from the center of the drawing.
+/// Writes the name of each joint next to the joint, on the side that faces away from the center of
+/// the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> named;
@@ -67,9 +68,10 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   }
 }
 
-/// Draws dimension lines with the lengths of straight lines of the body, on the side away from the
-/// center of the drawing. Equal lengths have one dimension line. Lines shorter than 0.12 of the
-/// longer side of the drawing have no dimension line.
+/// Draws dimension lines with the lengths of straight members, or of the edges of a model without
+/// members. Each dimension line is on the side that faces away from the center of the drawing.
+/// Equal lengths have one dimension line. Lengths below 0.12 of the longer side of the drawing have
+/// no dimension line.
 void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box) {
   constexpr std::size_t kMaxDimensions = 6;
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
@@ -91,7 +93,7 @@ void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box)
   }
 }
 
-/// Arrows of the loads with one unit, with their tips at the loaded nodes.
+/// Arrows of all loads with the same unit (N or N/m), with their tips at the loaded nodes.
 struct LoadArrows {
   PlotScript::Rows rows = {};  ///< x, y, dx, dy
   std::string title = {};
@@ -130,8 +132,8 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text + ".";
 }
 
-/// Draws the poses of a mechanism other than the first pose, and the key of poses, joints and
-/// loads. @returns the height of the key [px]
+/// Draws the poses of a mechanism other than the first pose, and the legend of poses, joints and
+/// loads. @returns the height of the legend [px]
 int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
                   const std::string& base_label, const Drawing& drawing,
                   const std::vector<LoadArrows>& loads) {
@@ -154,7 +156,7 @@ int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*
 std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
-  // A model of points only, such as a mass on springs, has no drawing.
+  // A model without members, triangles and joints, such as a mass on springs, has no drawing.
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty())
     return std::nullopt;
   std::vector<const Pose*> overlays;

@@ -38,7 +38,8 @@ std::vector<Pose> instants_of(const Drawing& drawing) {
   return instants;
 }
 
-/// Returns the magnification of deflections in the drawing: a factor with two digits, at least 1.
+/// Returns the factor by which the drawing magnifies deflections, with two significant digits and
+/// at least 1.
 double magnification(double deflection, double side) {
   if (!(deflection > 0)) return 1;
   const double factor = kDrawnAmplitude * side / deflection;
@@ -48,7 +49,7 @@ double magnification(double deflection, double side) {
 
 std::string caption_of(const std::vector<Pose>& instants, const Largest& deflection, double factor,
                        const std::string& drawn) {
-  const std::string all = " Drawn: " + drawn + ". Animated: " + std::to_string(instants.size()) +
+  const std::string all = " Instants: " + drawn + ". Animated: " + std::to_string(instants.size()) +
                           " instants up to " + trimmed(*instants.back().time_s, 4) +
                           "\u202fs, interpolated linearly.";
   if (deflection.length > 0)
@@ -73,9 +74,9 @@ Table table_of(const std::vector<Pose>& instants) {
 using Json = nlohmann::json;
 using Coordinates = std::vector<long>;
 
-/// Lines of a drawing as JSON for the script of the page. Nodes are numbered in the order in which
-/// they are drawn; nodes that are not drawn have no number. Coordinates are in tenths of a unit of
-/// the drawing, with y downwards.
+/// Lines of a drawing as JSON for the animation by page.js. Nodes are numbered in the order in
+/// which they are drawn; nodes that are not drawn have no number. Coordinates are in units of 0.1
+/// px, with y downwards.
 class Panel {
  public:
   Panel(const Drawing& drawing, const Box& box, double width)
@@ -112,16 +113,16 @@ class Panel {
   std::map<int, int> places_;
 };
 
-/// Replaces each row by its difference from the previous row.
+/// Replaces each row of coordinates by its difference from the previous row.
 Json row_differences(std::vector<Coordinates> rows) {
   for (std::size_t k = rows.size(); k-- > 1;)
     std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());
   return rows;
 }
 
-/// Returns the animation of a motion as JSON: the node positions at each instant with deflections,
-/// and also without deflections if any node deflects. Positions are stored as differences from the
-/// previous instant.
+/// Returns the animation of a motion as JSON: the node positions at each instant with magnified
+/// deflections. If any node deflects, it also contains the positions without deflections. Positions
+/// are stored as differences from the previous instant.
 std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
                          const Box& box, double panel) {
   Panel moving(drawing, box, panel);

@@ -11,10 +11,11 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kCoarseMesh = 12;  ///< largest number of triangles with all edges drawn
-constexpr std::size_t kFineMesh = 600;   ///< largest number of triangles with thin edges drawn
+constexpr std::size_t kCoarseMesh = 12;  ///< with more triangles, not all edges are drawn
+constexpr std::size_t kFineMesh = 600;   ///< with more triangles, no inner edges are drawn
 
-/// Returns whether the line from `from` through `p` to `to` is straight within 1e-3 rad.
+/// Returns true if the line from `from` through `p` to `to` changes direction by less than 1e-3 rad
+/// at `p`.
 bool is_straight(const std::vector<double>& from, const Point& p, const Point& to) {
   const double ax = p.first - from[0], ay = p.second - from[1];
   const double bx = to.first - p.first, by = to.second - p.second;
@@ -53,8 +54,8 @@ std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
   return found;
 }
 
-/// Returns the sides that belong to only one triangle, joined to closed loops: counterclockwise
-/// around a plate, clockwise around a hole.
+/// Returns the sides that belong to only one triangle, joined to closed loops of node numbers.
+/// Loops are counterclockwise around a mesh, and clockwise around its holes.
 std::vector<std::vector<int>> outline(const Drawing& drawing) {
   std::multimap<int, std::vector<int>> from;
   for (auto& [_, side] : sides(drawing))
@@ -136,8 +137,8 @@ std::vector<std::vector<int>> filled_loops(const Drawing& drawing) {
 PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
   const std::vector<std::vector<int>> loops = filled_loops(drawing);
   if (drawing.triangles.size() <= kCoarseMesh) return polyline_points(loops, nodes);
-  // One polygon passes through all loops and returns to its start after each, so that holes stay
-  // unfilled.
+  // One polygon passes through all loops, and returns to its first point after each loop. Gnuplot
+  // then does not fill the holes.
   std::vector<std::vector<int>> closed;
   for (const auto& loop : loops) {
     if (closed.empty()) {

@@ -14,7 +14,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxShapes = 8;
-constexpr double kRigid = 1e-4;  ///< frequency ratio below which a mode is a rigid-body mode
+constexpr double kRigid = 1e-4;  ///< limit for rigid-body modes: frequency / highest frequency
 
 double factor_for(const Shape& shape, double side) {
   double largest = 0;
@@ -22,19 +22,20 @@ double factor_for(const Shape& shape, double side) {
   return largest > 0 && std::isfinite(largest) ? kDrawnAmplitude * side / largest : 0;
 }
 
-/// Position of a shape in the figure [px], with y downwards. The width of the box fills the panel.
+/// Position of the drawing of one shape in the figure [px], with y downwards. The box around the
+/// shapes is scaled to the width of the panel.
 struct Panel {
   Box box;
   double left, top, width;
 
-  /// Returns the data of an SVG path along lines of nodes.
+  /// Returns the attribute `d` of an SVG path along polylines of node numbers.
   [[nodiscard]] std::string path(const std::vector<std::vector<int>>& lines,
                                  const std::vector<Point>& nodes) const {
     const double scale = width / box.width();
     std::string out;
     for (const auto& line : lines)
       for (std::size_t i = 0; i < line.size(); ++i) {
-        if (i % (1 + line.size() / 200) != 0 && i + 1 != line.size()) continue;  // too fine
+        if (i % (1 + line.size() / 200) != 0 && i + 1 != line.size()) continue;  // up to 200 points
         const auto& [x, y] = nodes[static_cast<std::size_t>(line[i])];
         out += fmt::format("{}{:.4g},{:.4g}", i == 0 ? 'M' : ' ', left + scale * (x - box.x.low),
                            top + scale * (box.y.high - y));
@@ -44,10 +45,10 @@ struct Panel {
 };
 
 /// Draws the undeformed and the deformed body. The deformed body swings between the shape and its
-/// mirror image while the drawing has the pointer or the focus.
+/// mirror image while the drawing has the mouse pointer or the keyboard focus.
 /// @param half_period_s  time from the shape to its mirror image; 0: the body does not swing
 /// @param name           unique name of the drawing
-/// @param motion         receives the styles of the motion
+/// @param motion         the CSS of the animation is appended to this text
 std::string panel_svg(const Drawing& drawing, const Shape& shape, double factor,
                       double half_period_s, const std::string& name, std::size_t panels,
                       const Panel& panel, std::string& motion) {
@@ -80,13 +81,13 @@ std::string panel_svg(const Drawing& drawing, const Shape& shape, double factor,
   return out;
 }
 
-/// Returns whether a shape is a vibration mode, labeled as "mode 3, 15.1 Hz".
+/// Returns true if a shape is a vibration mode, which has a label such as "mode 3, 15.1 Hz".
 bool is_mode(const Shape& shape) {
   return shape.label.starts_with("mode") && shape.label.find(" Hz") != std::string::npos;
 }
 
-/// Returns the frequencies of `n` vibration modes [Hz]. Empty if the shapes are no modes, or if any
-/// number is missing.
+/// Returns the frequencies of `n` vibration modes [Hz]. Empty if the shapes are no vibration modes,
+/// or if any of the frequencies is missing.
 std::vector<double> frequencies_of(const Drawing& drawing, std::size_t n, const Run& run) {
   const auto* frequency = run.quantity("frequency_Hz");
   std::vector<double> values;
@@ -101,7 +102,7 @@ std::vector<double> frequencies_of(const Drawing& drawing, std::size_t n, const 
 std::string modes_text(const Drawing& drawing, const std::vector<double>& values) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
-    return "The lowest mode buckles at " + label.substr(label.find(", ") + 2) + ".";
+    return "The lowest buckling mode is at " + label.substr(label.find(", ") + 2) + ".";
   }
   const std::size_t n = values.size();
   if (n == 0) return "";
@@ -122,7 +123,7 @@ std::string displacements_text(const Drawing& drawing, const std::vector<double>
                                double side) {
   const auto size = [](double factor) { return factor > 0 ? 1 / factor : 0; };
   const auto largest = std::ranges::max_element(factors, {}, size) - factors.begin();
-  if (!(factors[largest] > 0)) return "Nothing is displaced.";
+  if (!(factors[largest] > 0)) return "All displacements are zero.";
   const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";
   return "The largest displacement is " + length_text(kDrawnAmplitude * side / factors[largest]) +
          of + ", magnified " + trimmed(factors[largest], 2) + " times.";
@@ -164,7 +165,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   const double fastest = hertz.empty() ? 0 : std::ranges::max(hertz);
   double slowest = fastest;
   for (const double f : hertz) slowest = f > kRigid * fastest ? std::min(slowest, f) : slowest;
-  const double slowed = std::max(2 * slowest, 0.25 * fastest);  // to at most 0.5 Hz and 4 Hz
+  const double slowed = std::max(2 * slowest, 0.25 * fastest);  // lowest <= 0.5 Hz, highest <= 4 Hz
   std::string svg, motion;
   for (std::size_t s = 0; s < n; ++s) {
     const std::size_t row = s / columns;
@@ -188,7 +189,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
       .caption =
           "Undeformed (gray) and deformed (blue) shapes, each scaled so that its largest "
           "displacement is " +
-          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side. " +
+          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the model's longer side. " +
           (modes ? modes_text(drawing, hertz) : displacements_text(drawing, factors, side)) +
           (slowed > 0
                ? " Hover or focus shows the motion, slowed down " + trimmed(slowed, 2) + " times."

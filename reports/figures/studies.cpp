@@ -15,7 +15,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller changes are drawn at this value
+constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller relative changes are drawn here
 constexpr double kSceneMargin = 1.3;           ///< ratio of axis limits to outermost points
 
 Table table_of(const std::vector<EffectScene>& scenes) {
@@ -25,8 +25,9 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
-/// Reports the numbers of scenes within the tolerance and with a minimal selection of effects.
-/// Reports the time of the selection and the run, relative to a run with all effects.
+/// Returns sentences on the automatic selection of effects in all scenes (cases with candidate
+/// effects). The sentences state the number of scenes within the tolerance, the number without a
+/// superfluous effect, and the computing time relative to runs with all effects.
 std::string conclusion(const std::vector<EffectScene>& scenes) {
   std::size_t within = 0, minimal = 0;
   double all_effects_s = 0, selected_s = 0;
@@ -43,21 +44,21 @@ std::string conclusion(const std::vector<EffectScene>& scenes) {
          " times as long as the runs with all effects.";
 }
 
-/// Returns the caption of the figure of the calls of trammel.
+/// Returns the caption of the figure of work and time of the calls of the program trammel.
 /// @param work, time  rows of (call, value relative to the first call)
 std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
   const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
   std::string text =
       "Counted work and processor time of all runs of each call of trammel, relative to the first "
-      "call. Times are of complete calls on the machine of the newest call.";
+      "call. Times are of calls that computed all runs, on the machine of the newest call.";
   if (!work.empty()) text += " The newest call has " + last(work) + " times the work";
   if (time.size() > 1)
     text += (work.empty() ? " The newest call has " : " and ") + last(time) + " times the time";
   return text + (work.empty() && time.size() < 2 ? "" : ".");
 }
 
-/// Draws curves of points, with the line of equal coordinates.
-/// @param line  title of this line
+/// Draws sets of points, and the line y = x.
+/// @param line  title of the line y = x
 /// @param log   true for logarithmic axes
 Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& curves,
                const std::string& x_label, const std::string& y_label, const std::string& line,
@@ -128,7 +129,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   if (scene != results.effect_scenes.end()) {
     script.curve({{scene->tolerance, y - 0.6}, {scene->tolerance, -0.4}},
                  "with lines lw 1.5 dt 2" + lc(palette::kMuted), "tolerance");
-    caption += " Requested " + percent_text(scene->tolerance, 2, false) + ", obtained " +
+    caption += " Permitted change " + percent_text(scene->tolerance, 2, false) + ", obtained " +
                percent_text(scene->change, 2, false) + ".";
   }
   // The key has only two columns, because the names of the effects reduce the width of the plot.
@@ -137,7 +138,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   return Figure{
       .id = slug(info.id + "-" + run.variant + "-effects"),
       .title = titled("Effects", info, run),
-      .caption = "Changes without one effect, and without several (cumulative). " + caption,
+      .caption = "Changes of results without one or several (cumulative) effects. " + caption,
       .alt = caption,
       .height = 120 + 34 * static_cast<int>(table.rows.size()) + key,
       .commands = script.commands(),
@@ -153,7 +154,7 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
   return {scatter({.id = "effects-obtained",
                    .title = "Automatic selection of effects: obtained change against tolerance",
                    .caption = "Change of the results caused by omitting effects, against the "
-                              "requested tolerance, one point per scene. " +
+                              "requested tolerance, one point per case (scene). " +
                               conclusion(scenes),
                    .data = table_of(scenes)},
                   curves, "tolerance: requested limit of the change", "obtained change",
@@ -217,8 +218,8 @@ Figure call_history_figure(const History& history) {
   }
   PlotScript script;
   script.axis_label("x", "call");
-  script.axis_label("y", "relative to the first");
-  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // integer tics
+  script.axis_label("y", "relative to the first call");
+  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // tick spacing >= 1
   script.command("set yrange [0:*]; set xtics " + std::to_string(history.calls.front().id) + "," +
                  std::to_string(step));
   script.range("x", static_cast<double>(history.calls.front().id) - 0.5,

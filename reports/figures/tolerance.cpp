@@ -12,18 +12,19 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kMinShare = 1e-8;         ///< left edge, where smaller fractions are drawn
-constexpr std::size_t kManyChecks = 2000;  ///< more checks are drawn at fewer positions
-constexpr double kMaxShare = 100;  ///< right edge, where larger fractions and errors are drawn
+constexpr double kMinShare = 1e-8;         ///< left edge; smaller fractions are drawn here
+constexpr std::size_t kManyChecks = 2000;  ///< with more checks, 5 positions per decade are drawn
+constexpr double kMaxShare = 100;  ///< right edge; larger fractions and errors are drawn here
 
-/// Checks of a case that are drawn as points on one line.
+/// Checks that are drawn as points on one line of the figure: those of one case, or one check with
+/// its values.
 struct ToleranceRow {
   std::string label;
   std::vector<std::pair<const Run*, const Check*>> checks;
   double worst = 0;
 };
 
-/// Returns the coordinate y of the points of a row. Row 0 is at the top.
+/// Returns the y coordinate of the points of a row of the figure. Row 0 is at the top.
 double row_y(std::size_t row) {
   return -static_cast<double>(row) - 0.72;
 }
@@ -37,10 +38,10 @@ bool is_shown(const Check& check) {
   if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
          (check.verdict == Verdict::pass && is_numeric(check) &&
-          difference_over_tolerance(check) <= 1);  // a negative control passes beyond its tolerance
+          difference_over_tolerance(check) <= 1);  // negative controls must exceed the tolerance
 }
 
-/// Returns a row for each case, or for each check if the family has only one case.
+/// Returns a row of the figure for each case, or for each check if the family has only one case.
 std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
                                          const std::vector<const Run*>& runs) {
   const bool one_case = std::ranges::all_of(
@@ -58,7 +59,8 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
   return rows;
 }
 
-/// Keeps the check with the largest fraction in each row, and sorts the rows by this fraction.
+/// Keeps the check that uses the largest fraction of its tolerance in each row, and sorts the rows
+/// by this fraction.
 void keep_largest(std::vector<ToleranceRow>& rows) {
   std::ranges::sort(rows, {}, [](const ToleranceRow& row) { return -row.worst; });
   const auto fraction = [](const auto& entry) { return drawn_fraction(*entry.second); };
@@ -73,7 +75,7 @@ PlotScript::Rows points(const std::vector<ToleranceRow>& rows, double per_decade
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
       if (belongs(*check)) out.push_back({drawn_fraction(*check), row_y(i)});
-  // Points that would cover each other are drawn once.
+  // Points whose rounded positions are equal are drawn once.
   for (auto& point : out)
     point[0] = std::pow(10, std::round(per_decade * std::log10(point[0])) / per_decade);
   std::ranges::sort(out);
@@ -176,7 +178,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   return Figure{.id = slug(family + "-tolerance"),
                 .title = largest_only ? "Largest fraction of the tolerance in each case"
                                       : "Fraction of the tolerance used by each check",
-                .caption = "Difference over tolerance; the line is the limit. " + caption,
+                .caption = "Difference divided by tolerance. The line is the limit. " + caption,
                 .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
                 .height = 105 + (largest_only ? 8
                                  : many       ? 28

@@ -17,7 +17,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Results of one simulation code, and its number of runs of each grade ("agrees", "off", ...).
+/// Results of one simulation code, and its number of runs with each grade ("agrees", "off", ...).
 struct Code {
   Results results;
   std::string name, version;
@@ -74,9 +74,9 @@ const Check* find_check(const Run& run, const Check& like) {
   return nullptr;
 }
 
-/// Returns the check that represents a row, one of the decisive checks of all codes. Checks with an
-/// expected value come first, then failed checks, then those that use the largest fraction of their
-/// tolerance.
+/// Returns the check that represents a row of the table. The candidates are the checks that decide
+/// the grades of the codes. Checks with an expected value come first, then failed checks, then
+/// those that use the largest fraction of their tolerance.
 const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
@@ -131,7 +131,8 @@ Data row_data(const Row& row) {
        {"cells", list_of(row.runs, cell_of)}});
 }
 
-/// Returns a table of the codes with their numbers of runs of each grade and their times.
+/// Returns a table of the simulation codes, with their numbers of runs of each grade and their
+/// computing times.
 TextTable codes_table(const std::vector<Code>& codes) {
   std::vector<Grade> grades;
   for (const Grade grade : kAllGrades)

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFigures = 12;  ///< largest number of figures of a compared run
+constexpr std::size_t kMaxFigures = 12;  ///< largest number of figures for each run
 
 std::string signed_percent(const Number& percent) {
   return percent ? with_sign(*percent, 3) + "\u202f%" : "";
@@ -68,7 +68,7 @@ TextTable value_table(const std::string& title, const std::string& head,
 }
 
 TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) {
-  TextTable table = value_table("Modes by shape (Hz)", "Mode", comparison);
+  TextTable table = value_table("Modes matched by shape (Hz)", "Mode", comparison);
   for (const ComparedModes& found : run.modes) {
     std::vector<std::string> row = {fmt::format("{}", fmt::join(found.modes[0], ", "))};
     for (std::size_t s = 0; s < found.values.size(); ++s) {
@@ -103,8 +103,8 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
   return table;
 }
 
-/// Returns the figures that the case requests, and a figure for each further series of values that
-/// differs between the compared sides.
+/// Returns requests for the figures that the case itself requests, and for a figure of each further
+/// list of values that differs between the compared results.
 std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
   std::set<std::string> drawn = {"time_s"};  // time is the x axis of other series
@@ -127,8 +127,8 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   return requests;
 }
 
-/// Plans figures that show the runs of all sides like variants of one case. The labels of the sides
-/// are the titles of the variants.
+/// Plans figures that show the runs of all compared sets of results ("sides") like variants of one
+/// case. The labels of the sides are the titles of the variants.
 std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& comparison) {
   if (run.runs.empty()) return {};
   CaseInfo info = run.info;

@@ -70,7 +70,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   return text + "    </testcase>\n";
 }
 
-/// Returns one line about the worst value of a check.
+/// Returns one line about the value of a check with the most severe status.
 std::string check_message(const CheckGroup& group) {
   const Check& worst = group.worst();
   if (check_status(worst) == CheckStatus::known_discrepancy)
@@ -111,7 +111,7 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
                      run_output(run), tally);
     for (const CheckGroup& group : group_checks(run)) {
       const std::string& name = group.front().name;
-      if (name == "unexpected-status") continue;  // the test case "status" fails
+      if (name == "unexpected-status") continue;  // reported by the test case "status"
       body +=
           testcase(classname, name == "status" ? "expected-status" : name, 0,
                    check_status(group.worst()), check_message(group), check_output(group), tally);

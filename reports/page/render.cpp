@@ -13,13 +13,14 @@ namespace trammel::reports {
 
 namespace {
 
-/// Templates that other templates can include.
+/// Names of the templates in reports/templates that other templates can include.
 constexpr std::array<const char*, 18> kPartials = {
     "cell",   "checks", "claims_table", "counts",  "error_coverage", "families",
     "figure", "find",   "front",        "head",    "matrix",         "questions",
     "roles",  "rows",   "study",        "summary", "table",          "tables"};
 
-/// Typesets the powers of ten in an HTML text, except in code, styles, scripts and metadata.
+/// Replaces numbers such as 1e-6 by 10⁻⁶ in an HTML text, except in code, styles, scripts and
+/// metadata.
 std::string with_powers_in_text(const std::string& html) {
   constexpr std::array<std::string_view, 4> kUnchanged = {"code", "style", "script", "metadata"};
   std::string out;
@@ -36,7 +37,8 @@ std::string with_powers_in_text(const std::string& html) {
   return out;
 }
 
-/// Applies `change` to all values of an attribute in an HTML text. Values are in double quotes.
+/// Applies the function `change` to all values of an attribute in an HTML text. The values must be
+/// in double quotes.
 std::string with_attribute(const std::string& html, const std::string& attribute,
                            const std::function<std::string(const std::string&)>& change) {
   const std::string open = " " + attribute + "=\"";

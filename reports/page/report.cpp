@@ -18,11 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name of the file that contains the key of a report, and the sizes and paths of its files.
+/// Name of the file that contains the key of a report (see `key_of`), and the sizes and paths of
+/// the files of the report.
 constexpr const char* kFileList = "report-files.txt";
 
-/// Returns a hash of the program and of all results, without the date of the call. For results in
-/// the store, the names of their files are part of the hash, which depend on the inputs.
+/// Returns the key of a report: a hash of the program and of all results, without the date of the
+/// call. A run in the store contributes the name of its file, which depends on the inputs.
 std::string key_of(const Results& results) {
   auto json = to_json(results, true);
   for (const char* key : {"date", "stored_runs"}) json["environment"].erase(key);
@@ -32,7 +33,8 @@ std::string key_of(const Results& results) {
 }
 
 /// Reads the list of files of an earlier report.
-/// @param key  becomes the key of the report, or empty if a file is missing or has another size
+/// @param key  set to the key of the earlier report, or empty if one of its files is missing or has
+/// another size
 std::vector<fs::path> read_list(const fs::path& out, std::string& key) {
   std::vector<fs::path> files;
   std::ifstream in(out / kFileList);
@@ -46,7 +48,7 @@ std::vector<fs::path> read_list(const fs::path& out, std::string& key) {
   return files;
 }
 
-/// Returns the paths and sizes of the files of a report, without the files of the results.
+/// Returns the paths and sizes of the files of a report, except for results.json and junit.xml.
 std::string list_of_files(const fs::path& folder) {
   std::set<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -77,11 +79,12 @@ fs::path write_report(const Results& results, const fs::path& out) {
     std::vector<Figure*> figures = all_figures(families);
     for (Figure* figure : studies.all()) figures.push_back(figure);
     make_ids_unique(figures);
-    // If the results include stored runs, unchanged drawings of the earlier report are reused.
+    // If the results include runs that an earlier call computed, unchanged drawings of the earlier
+    // report are reused.
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
          from.trammel + from.commit);
-    // A drawing is inlined in the page if the script of the page reads its curves or animates its
-    // shapes. Other drawings are loaded when they come into view.
+    // A drawing is inlined in the page if the script page.js reads its curves or animates its
+    // motion. Other drawings are loaded when the reader scrolls to them.
     for (Figure* figure : figures)
       figure->is_linked |=
           figure->moving.empty() && figure->svg.find(" data-axes=") == std::string::npos;

@@ -7,7 +7,7 @@
 #include "harness/results/side_comparison.h"
 #include "reports/data/results.h"
 
-/// HTML pages and JUnit files that the commands of trammel write.
+/// HTML pages and JUnit XML files that the commands of the program trammel write.
 namespace trammel::reports {
 
 /// Writes a report of complete results into `out`: `index.html`, a page for each family and case,
@@ -23,8 +23,8 @@ std::filesystem::path write_report(const Results& results, const std::filesystem
 void write_comparison(const results::SideComparison& comparison, const std::filesystem::path& file);
 
 /// Writes `index.html` into `out`, which compares the results of several simulation codes. Each row
-/// has a variant of a case with one decisive check and its expected value. Each cell has the grade
-/// of a code, its difference from the expected value, and its computing time.
+/// has a variant of a case, with one check that decides a grade and its expected value. Each cell
+/// has the grade of a code, its difference from the expected value, and its computing time.
 /// @returns the path of the page. @throws std::runtime_error  if a results file cannot be read.
 std::filesystem::path write_code_comparison(const std::vector<std::filesystem::path>& results_json,
                                             const std::filesystem::path& out);

@@ -15,7 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A page of sections. The key of a section is the name of its data and of its template.
+/// A page of the report that consists of sections. The key of a section is the name of its data and
+/// of its template.
 struct SectionPage {
   const char *path, *title, *short_title;
   std::vector<const char*> keys;
@@ -35,7 +36,8 @@ const std::vector<SectionPage>& section_pages() {
   return pages;
 }
 
-/// Returns whether a section has content. Some sections have content for the full catalogue only.
+/// Returns true if a section of the report has content. Some sections have content only for the
+/// full catalogue of cases.
 bool has_content(const Data& index, const std::string& key) {
   const Data* rows = index.get(key)->get("has_rows");
   return rows == nullptr || rows->is_true();
@@ -75,7 +77,8 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"groups", family_groups(families)}});
 }
 
-/// Returns links to the front page and to the pages of sections, for the bar of the page at `path`.
+/// Returns links to the front page and to the pages of sections, for the navigation bar of the page
+/// at `path`.
 Data page_links(const Data& index, const std::string& path, bool has_references) {
   Data out = list();
   const auto add = [&](const std::string& title, const std::string& link) {
@@ -112,7 +115,8 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
 }
 
 /// Returns the data for the search on the front page: a row for each check of each variant, with
-/// the worst value. The data are a script, because a page from a local file cannot load JSON.
+/// its value of the most severe status. The data are a script, because a page from a local file
+/// cannot load JSON.
 std::string check_list(const std::vector<Family>& families) {
   Json json = {{"cases", Json::array()}, {"rows", Json::array()}, {"roles", Json::array()}};
   for (const StatusStyle& style : kStatusStyles)
@@ -150,7 +154,8 @@ std::string body_of(const std::string& name, const Data& section) {
   return render(name + ".mustache", object({{name, section}}));
 }
 
-/// Returns the sections of a page. A section can also contain figures of the front page.
+/// Returns the HTML of the sections of a page. A section can also contain figures of the front
+/// page.
 std::string sections_body(const Data& index, const std::vector<const char*>& keys) {
   std::string body;
   for (const std::string key : keys)

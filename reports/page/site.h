@@ -8,7 +8,7 @@
 namespace trammel::reports {
 
 struct SiteFile {
-  std::string path, text;  ///< path below the folder of the report
+  std::string path, text;  ///< path relative to the report folder, content
 };
 
 /// Returns the pages of a report with drawn figures, and the style sheets and scripts that the

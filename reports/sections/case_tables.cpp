@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxListedValues = 8;
 
-Number statistic(const std::string& name, const std::vector<double>* values) {
+Number statistic_or_missing(const std::string& name, const std::vector<double>* values) {
   if (!values || std::ranges::any_of(*values, [](Number value) { return !value; })) return {};
   return harness::statistic_of(name.empty() ? "first" : name, *values);
 }
@@ -28,13 +28,14 @@ Number timing_of(const Run& run, const std::string& name) {
 
 std::string cell_text(const ColumnRequest& column, const Run& run) {
   if (column.timing.empty())
-    return text_or_dash(statistic(column.statistic, run.quantity(column.quantity)), 3);
+    return text_or_dash(statistic_or_missing(column.statistic, run.quantity(column.quantity)), 3);
   const Number time = timing_of(run, column.timing), other = timing_of(run, column.over_timing);
   if (!time || (!column.over_timing.empty() && other.value_or(0) == 0)) return text_or_dash({}, 3);
   return column.over_timing.empty() ? duration(*time) : "× " + trimmed(*time / *other, 2);
 }
 
-/// Returns a table that a case requests. Each variant has a row, each quantity or time a column.
+/// Returns a table that a case requests. Each variant has a row. Each quantity, or computing time,
+/// has a column.
 TextTable variant_table(const TableRequest& request, const CaseInfo& info,
                         const std::vector<const Run*>& runs) {
   TextTable table{request.title, {"Variant"}, {}, request.caption};
@@ -48,8 +49,9 @@ TextTable variant_table(const TableRequest& request, const CaseInfo& info,
   return table;
 }
 
-/// Returns a table for one row of printed numbers: the most probable interpretations ("readings")
-/// of the published model, with their probabilities and the values that they predict.
+/// Returns a table for one row of numbers printed in a publication. It contains the most probable
+/// interpretations ("readings") of the published model, with their probabilities and predicted
+/// values.
 TextTable probability_table(const RowProbabilities& row, const std::string& variant) {
   const auto count_of = [](int n, const char* noun, const char* nouns = "") {
     return count(static_cast<std::size_t>(n), noun, nouns);
@@ -82,7 +84,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
   return table;
 }
 
-/// Returns up to eight values as a list, and more values as a range.
+/// Returns the text of up to eight values as a list, and of more values as a range.
 std::string values_text(const std::vector<double>& values) {
   if (values.size() > kMaxListedValues) {
     const auto [low, high] = std::ranges::minmax(values);
@@ -93,7 +95,8 @@ std::string values_text(const std::vector<double>& values) {
   return text;
 }
 
-/// Returns the table row of a quantity: its values, and its largest estimated error if available.
+/// Returns the table row of a quantity: its values, and its largest estimated discretization error
+/// if available.
 std::vector<std::string> result_row(const std::string& name, const std::vector<double>& values,
                                     const ErrorEstimate* estimate) {
   const QuantityLabel quantity = parse_quantity(name);

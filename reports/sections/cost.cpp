@@ -6,7 +6,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Returns a time relative to the baseline setting: "2.4 ×".
+/// Returns a computing time relative to that of the baseline setting: "2.4 ×".
 std::string times(Number factor) {
   return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
 }
@@ -15,8 +15,8 @@ std::string error_text(double error) {
   return error < 1e-4 ? power_of_ten(-6) : trimmed(100 * error, 2) + "\u202f%";
 }
 
-/// Returns the setting with the shortest time, and the settings whose measured times cannot be
-/// distinguished from this time.
+/// Returns the names of the setting with the shortest computing time, and of settings whose
+/// measured times cannot be distinguished from this time.
 std::string settings_text(const CostStudy& study, const CheapestSetting& cheapest) {
   const std::string text = study.settings[*cheapest.setting].title;
   const std::size_t tied = cheapest.tied.size();
@@ -152,8 +152,8 @@ Data cost_section(const Results& results, const StudyFigures& figures) {
 
 Data effects_section(const Results& results, const StudyFigures& figures) {
   TextTable scenes{"Scenes",
-                   {"Scene", "Selected effects", ">Requested", ">Obtained", ">Selection", ">Run",
-                    ">With all effects"}};
+                   {"Scene", "Selected effects", ">Requested limit", ">Obtained change",
+                    ">Selection time", ">Run time", ">Time with all effects"}};
   for (const EffectScene& scene : results.effect_scenes) {
     scenes.rows.push_back({scene.scene, scene.chosen, percent_text(scene.tolerance, 2, false),
                            percent_text(scene.change, 2, false), duration(scene.deciding_s),

@@ -54,7 +54,7 @@ Counts counts_of(const std::vector<const Run*>& runs) {
   return counts;
 }
 
-/// Returns the worst status of the checks of all runs, and of the runs themselves.
+/// Returns the most severe status among the runs and all their checks.
 CheckStatus worst_status(const std::vector<const Run*>& runs) {
   Counts counts = counts_of(runs);
   for (const Run* run : runs)
@@ -85,7 +85,7 @@ Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   return out;
 }
 
-/// Returns the data of a case for the table of contents and for the page of its family.
+/// Returns the template data of a case for the table of contents and for the page of its family.
 Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
   return with_status(worst_status(runs),
@@ -98,8 +98,8 @@ Data case_entry(const CaseInfo& info, const Family& family) {
                       {"counts", counts_list(counts_of(runs))}});
 }
 
-/// Returns the first small drawing of a shape or geometry, without motion, among the cases of a
-/// family.
+/// Returns the first still drawing (SVG) of a mode shape, deformed shape or geometry among the
+/// cases of a family, as a thumbnail.
 std::string thumbnail_of(const Family& family) {
   for (const CaseInfo* info : family.cases)
     for (const auto part : {&Gallery::shown, &Gallery::sketch})
@@ -113,7 +113,8 @@ std::string thumbnail_of(const Family& family) {
   return "";
 }
 
-/// Returns the largest difference in words: "+332 %, frequency (Hz)"; empty if every check passes.
+/// Returns the largest difference from a target as text: "+332 %, frequency (Hz)". Empty if every
+/// check passes.
 std::string largest_difference_text(const std::vector<const Run*>& runs) {
   const Check* worst = nullptr;
   for (const Run* run : runs)

@@ -15,24 +15,26 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr double kFullColorDifference = 0.4;  ///< difference above which the color is darkest
-constexpr double kTargetReached = 0.01;       ///< largest relative difference of a reached target
+constexpr double kFullColorDifference = 0.4;  ///< relative difference of the darkest color
+constexpr double kTargetReached = 0.01;       ///< a target is reached within this relative error
 
-/// A check, and the comparison of its difference with the validation uncertainty if there is one.
+/// A check, and the comparison of its difference with the validation uncertainty if it is known.
 struct MatrixCell {
   const Check* check = nullptr;
   const Comparison* comparison = nullptr;
 };
 
-/// Row of a matrix: checks of one variant, by the index of the checked value.
+/// Row of a matrix (table of differences): checks of one variant, by the index of the checked
+/// value.
 struct MatrixRow {
   const Run* run;
   std::map<int, MatrixCell> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
-/// Content of one matrix: all variants of a family with the same check. Checks are distinguished by
-/// name, because two checks can compare a quantity with different values of one reference.
+/// Content of one matrix (table of differences): all variants of a family with the same check.
+/// Checks are distinguished by name, because two checks can compare a quantity with different
+/// values of one reference.
 struct MatrixSubject {
   std::string reference, quantity, check;
   std::vector<MatrixRow> rows;
@@ -138,7 +140,8 @@ std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
-/// Returns for each target the nearest value that any variant computes.
+/// Returns for each target (published value) the check with the nearest value that any variant
+/// computes.
 std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   std::map<int, MatrixCell> nearest;
   for (const MatrixRow& row : subject.rows)
@@ -170,8 +173,9 @@ std::string most_probable(const std::string& reference, const Results& results) 
   return text.empty() ? text : text + ".";
 }
 
-/// Returns the most probable reading of the published model, or else the variant with the smallest
-/// differences. Then lists the targets that no variant reaches.
+/// Returns a text with the most probable reading (interpretation) of the published model, or else
+/// with the variant of the smallest differences. The text then lists the targets that no variant
+/// reaches within 1 %.
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
   std::string text = most_probable(subject.reference, results);
@@ -191,7 +195,8 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
-/// Returns a cell for each target. The cell is empty if `entries` has no check of the target.
+/// Returns the data of a table cell for each target. The cell is empty if `entries` has no check of
+/// the target.
 Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
   return list_of(subject.targets, [&](const auto& target) {
     const auto found = entries.find(target.first);
@@ -239,7 +244,8 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
        {"rows", list_of(subject.rows, row)}});
 }
 
-/// Returns true if the page shows a matrix: it has many variants or uncertainties.
+/// Returns true if the page shows a matrix, which requires enough variants and targets, or a
+/// validation uncertainty.
 bool is_shown(const MatrixSubject& subject) {
   const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
     return row.checks.begin()->second.comparison != nullptr;

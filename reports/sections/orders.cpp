@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kOrderTolerance = 0.1;  ///< largest relative difference of an order "near" theory
+constexpr double kOrderTolerance = 0.1;  ///< limit of |fitted / theoretical order - 1| for "near"
 
 /// Convergence of all values of one quantity in one refinement study (sweep) of one run.
 using OrderRow = std::vector<const Convergence*>;
@@ -27,11 +27,12 @@ std::vector<OrderRow> rows_of(const Run& run) {
   return rows;
 }
 
-/// Summary of orders of convergence and errors, of one table row or of all rows of a family.
+/// Summary of the orders of convergence and of the errors, for one table row or for all rows of a
+/// family.
 struct Findings {
   std::size_t rows = 0, entries = 0;
   Interval order, law;               ///< fitted orders; relative misfits of two-term laws
-  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order; with order near theory
+  std::size_t fitted = 0, near = 0;  ///< values with a fitted order; with one near theory
 
   void add(const OrderRow& row) {
     ++rows;
@@ -123,7 +124,7 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
            std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
            percent_text(1.0 * found.covered / found.levels, 3, false) + ")" +
            (found.median_ratio
-                ? "; its median is " + trimmed(*found.median_ratio, 3) + " times the true error."
+                ? "; median GCI: " + trimmed(*found.median_ratio, 3) + " times the true error."
                 : ".");
   }
   return object({{"has_rows", entries > 0},

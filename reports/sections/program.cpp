@@ -11,8 +11,8 @@ namespace {
 constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufactured", "code",
                                                   "self-consistency"};
 
-/// Returns a table of the features of one group: keys of a case, pairs of an analysis and a
-/// component of the model, or quantities. Features without independent evidence are first.
+/// Returns a table of the program features of one group: keys of a case file, pairs of an analysis
+/// and a component of the model, or quantities. Features without independent evidence are first.
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
                 const std::string& title) {
   TextTable table{title, {"Feature"}};

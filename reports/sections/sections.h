@@ -17,8 +17,8 @@ namespace trammel::reports {
 /// (`status_text`, `status_class`, `sign`).
 [[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
 
-/// Returns a list with an entry for each status that occurs: number n of its checks, and their
-/// percentage of all checks.
+/// Returns template data with an entry for each status that occurs: the number n of checks with
+/// this status, and their percentage of all checks.
 [[nodiscard]] Data counts_list(const Counts& counts);
 
 /// Return links to the page of a case, a family or a reference, relative to the report folder.
@@ -29,20 +29,21 @@ namespace trammel::reports {
 /// Returns the name of a case of the catalogue, or the path of another case, for a command line.
 [[nodiscard]] std::string run_name(const CaseInfo& info);
 
-/// Returns "± 3.2 %": the expanded validation uncertainty of a check relative to its target.
-/// Returns "" if it is unknown.
+/// Returns the expanded validation uncertainty of a check relative to its target: "± 3.2 %".
+/// Returns "" if the uncertainty is unknown.
 [[nodiscard]] std::string uncertainty_text(const Run& run, const Check& check);
 
 /// Returns the data of a drawn figure for the template figure.mustache.
 [[nodiscard]] Data figure_data(const Figure& figure);
 
-/// Id of the figure that represents all cost studies.
+/// Id of the figure that represents all cost studies on the front page.
 inline constexpr const char* kLeadFigure = "cost-modes-elements";
 
-/// Figures of studies of many cases. `plan_studies` does not draw the figures.
+/// Figures that summarize many cases. `plan_studies` prepares the figures, and `draw` draws them
+/// later.
 struct StudyFigures {
   std::vector<Figure> trust;  ///< fractions of tolerances, and orders of convergence
-  std::vector<Figure> cost;   ///< one figure for each cost study of the results
+  std::vector<Figure> cost;   ///< computing time against error, one figure per study
   std::vector<Figure> stress, effects, errors, history;
 
   [[nodiscard]] std::vector<Figure*> all();
@@ -59,13 +60,14 @@ struct StudyFigures {
 /// Automatic selection of mechanical effects in the cases with candidate effects (scenes).
 [[nodiscard]] Data effects_section(const Results& results, const StudyFigures& figures);
 
-/// Work and time of the calls of trammel in a history file, and the number of changed values.
+/// Counted work and time of the calls of trammel in a history file, and the number of values that
+/// changed since an earlier call.
 [[nodiscard]] Data call_history_section(const Results& results, const StudyFigures& figures);
 
 /// Features of the program, each with the types of evidence that verify it.
 [[nodiscard]] Data coverage_section(const Results& results);
 
-/// Machine, compiler, libraries and computing time.
+/// Machine, compiler and computing time of the results.
 [[nodiscard]] Data environment_section(const Results& results);
 
 /// A case with its tables and drawn figures.
@@ -74,8 +76,8 @@ struct StudyFigures {
 /// A family of cases with its common figures and tables, and a line for each case.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
-/// Returns the groups of families, each with a link to its first family, a small drawing, and its
-/// largest difference in words.
+/// Returns the groups of families, each with a link to its first family, a small drawing, and the
+/// largest difference from a target as text.
 [[nodiscard]] Data family_groups(const std::vector<Family>& families);
 
 /// Returns a table ("matrix") of differences for each validation check with many variants or a
@@ -96,7 +98,7 @@ struct StudyFigures {
 [[nodiscard]] Data stress_suite_section(const std::vector<Family>& families,
                                         const StudyFigures& figures);
 
-/// Verdict, failures and counts of all checks.
+/// Overall verdict, failures, and numbers of checks with each role and status.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
 
 /// One sheet for an audit: verdict, numbers of checks, the largest known discrepancies with their
@@ -111,8 +113,8 @@ struct StudyFigures {
 [[nodiscard]] Data front_page_section(const Results& results, const std::vector<Family>& families,
                                       const StudyFigures& figures);
 
-/// Returns the tables of the checks of a case: one with the worst values of the most severe checks,
-/// and one with all checks.
+/// Returns the tables of the checks of a case: one with the worst value of each of the most severe
+/// checks, and one with all checks.
 [[nodiscard]] Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                      const Results& results);
 

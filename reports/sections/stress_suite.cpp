@@ -9,11 +9,12 @@ namespace trammel::reports {
 
 namespace {
 
-/// Worst value of one check over all variants of a stress case.
+/// Worst value of one check over all variants of a case of the stress suite, which examines
+/// numerical stability.
 struct Indicator {
   const Check* worst = nullptr;
   const Run* run = nullptr;  ///< run with the worst value
-  std::size_t entries = 0;   ///< number of checked values of all runs
+  std::size_t entries = 0;   ///< number of checked values in all runs
 };
 
 Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {

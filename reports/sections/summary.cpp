@@ -22,7 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"all", ""},
 }};
 
-/// Returns the number of checks of each status, for the checks with one role.
+/// Returns the number of checks with each status, for the checks with one role.
 /// @param role  "all" for the checks of all roles
 Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
@@ -57,7 +57,8 @@ void set_roles(Data& data, const Results& results, const Counts& all) {
   set(data, {{"heads", heads}, {"roles", rows}});
 }
 
-/// Returns the runs that did not end as expected, and the checks that fail or could not be judged.
+/// Returns the runs whose status is not the expected one, and the checks that fail or could not be
+/// judged.
 Data failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
   for (const Run& run : results.runs) {
@@ -83,7 +84,7 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
 /// variants are compared with it.
 struct Targets {
   std::set<std::tuple<std::string, double, int>> printed;  ///< reference, value, index if repeated
-  std::set<std::tuple<std::string, std::string, std::string, int>> stated;  ///< case, check, entry
+  std::set<std::tuple<std::string, std::string, std::string, int>> stated;  ///< case, check, index
 
   void add(const Run& run, const Check& check, const Results& results) {
     const Reference* reference = results.reference(check.reference);
@@ -178,8 +179,8 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
   return out;
 }
 
-/// Returns the most frequent reasons of discrepancies with their numbers of values, and the number
-/// of values with other reasons.
+/// Returns the most frequent reasons of known discrepancies with their numbers of values, and the
+/// number of values with other reasons.
 Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
   constexpr std::ptrdiff_t kShown = 5;
   std::map<std::string, std::size_t> entries;

@@ -11,8 +11,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxHeadlines = 8;  ///< largest number of unfolded rows of a case
-constexpr std::size_t kMaxEntries = 12;   ///< checks with more values have one row
+constexpr std::size_t kMaxHeadlines = 8;  ///< rows of a case that are visible at once
+constexpr std::size_t kMaxEntries = 12;   ///< of checks with more values, the worst is shown
 
 /// Returns the table cells of one value. The first row also has the cells that span all rows.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
@@ -34,15 +34,15 @@ std::string range_text(const Check& check) {
   return (check.is_known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
-/// State of a table under construction: the results, and the names of checks to which links on the
-/// page can point.
+/// State of a table under construction: the results, and the names of checks that have an anchor
+/// (link target) on the page.
 struct Rows {
   const Results& results;
   std::set<std::string> named = {};
 };
 
 /// Returns the data of one check with a row for each value.
-/// @param shared  true if all rows have the same tolerance
+/// @param shared  true if all rows have the same tolerance, which is then stated once
 Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();

@@ -28,7 +28,7 @@ void replace_files(const std::filesystem::path& from, const std::filesystem::pat
                    const std::string& last_moved,
                    const std::vector<std::filesystem::path>& obsolete);
 
-/// A table for a CSV file (RFC 4180, UTF-8), with units in the heads of columns.
+/// A table for a CSV file (RFC 4180, UTF-8), with units in the column headings.
 struct Table {
   std::vector<std::string> heads;
   std::vector<std::vector<harness::Json>> rows;

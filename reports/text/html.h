@@ -49,7 +49,8 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
   return Data(Data::type::list);
 }
 
-/// Returns a list with the result of `make` for each item, in the order of the items.
+/// Returns template data: a list with the result of the function `make` for each item, in the order
+/// of the items.
 template <typename Range, typename Make>
 [[nodiscard]] Data list_of(const Range& range, Make make) {
   Data out = list();

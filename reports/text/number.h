@@ -22,7 +22,7 @@ namespace trammel::reports {
 /// Returns a number with at most `digits` digits and no trailing zeros: 0.002, not 0.002000.
 [[nodiscard]] std::string trimmed(double x, int digits);
 
-/// Returns the number as `trimmed`, with its sign: +0.31, −4.2 × 10⁻⁹.
+/// Returns the number like the function `trimmed`, but with its sign: +0.31, −4.2 × 10⁻⁹.
 [[nodiscard]] std::string with_sign(double x, int digits);
 
 /// Returns a relative difference as a percentage; a magnitude below 1e-5 as a plain number.
@@ -32,7 +32,7 @@ namespace trammel::reports {
 /// Returns 6 if the numbers agree in more than 10 digits.
 [[nodiscard]] int distinguishing_digits(double a, double b);
 
-/// Number of significant digits of the points of curves in figures. Its rounding error is smaller
+/// Number of significant digits of the points of curves in figures. The rounding error is smaller
 /// than a pixel.
 inline constexpr int kSampleDigits = 7;
 
@@ -71,7 +71,7 @@ using harness::shortest_decimal;
 /// Appends an item to a list, after a separator unless it is the first item.
 void add_item(std::string& list, const std::string& item, const std::string& separator = ", ");
 
-/// Splits a text at spaces, for heads of tables.
+/// Splits a text at spaces, for the column headings of tables.
 [[nodiscard]] std::vector<std::string> words_in(const std::string& text);
 
 }  // namespace trammel::reports

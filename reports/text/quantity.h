@@ -13,7 +13,7 @@ struct QuantityLabel {
 
 [[nodiscard]] QuantityLabel parse_quantity(const std::string& name);
 
-/// Returns label and subject of a quantity as text: "x displacement of P".
+/// Returns a quantity as text without its unit: "x displacement of P".
 [[nodiscard]] std::string to_text(const QuantityLabel& quantity);
 
 /// Converts a unit in the notation of reference files (N m, kg m^2) to a typeset unit (N·m, kg·m²).

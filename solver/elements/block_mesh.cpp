@@ -65,7 +65,8 @@ class Side {
   }
 
   [[nodiscard]] Vector2d at(double s) const {
-    if (s == 0) return from_;  // exact corner without round-off, as in adjacent blocks
+    // The exact corner, without round-off, equals that of adjacent blocks.
+    if (s == 0) return from_;
     if (s == 1) return to_;
     if (!ellipse_) return (1 - s) * from_ + s * to_;
     const double t = start_ + s * turn_;
@@ -77,7 +78,7 @@ class Side {
     const Vector2d p = (point - ellipse_->center).cwiseQuotient(ellipse_->semi_axes);
     if (!(std::abs(p.norm() - 1) < 1e-6))
       throw ModelError("a corner of a mesh block at (" + std::to_string(point.x()) + ", " +
-                       std::to_string(point.y()) + ") m does not lie on the ellipse of a side");
+                       std::to_string(point.y()) + ") m does not lie on the ellipse of its side");
     return std::atan2(p.y(), p.x());
   }
 
@@ -234,9 +235,9 @@ std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
 
 namespace {
 
-/// Returns the displacement of a node of a distorted mesh along one axis, divided by the amplitude
-/// of the distortion: -1, 0 or 1. n is an integer combination of the row and column of the node.
-/// The values repeat with period 3 in n.
+/// Returns the displacement of a node of a distorted mesh along x or y, divided by the amplitude of
+/// the distortion: -1, 0 or 1. n is an integer combination of the row and column of the node. The
+/// values repeat with period 3 in n.
 double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }

@@ -28,10 +28,10 @@ struct Block {
   /// Ellipse on which each side of the block lies, or an empty value for a straight side. Side i
   /// runs from corner i to corner i + 1, and side 3 to corner 0.
   std::array<std::optional<Ellipse>, 4> sides;
-  /// Numbers of cells in two directions: along sides 0 and 2, and along sides 1 and 3.
+  /// Numbers of mesh cells of the block along sides 0 and 2, and along sides 1 and 3.
   std::array<Index, 2> cells{1, 1};
-  /// Ratio of the length of the last cell to that of the first cell in each direction. The cells
-  /// are counted from corner 0.
+  /// Length of the last cell divided by that of the first cell, along sides 0 and 2, and along
+  /// sides 1 and 3. The cells are counted from corner 0.
   std::array<double, 2> grading{1, 1};
 };
 
@@ -47,11 +47,11 @@ struct BlockMesh {
   std::vector<std::array<std::vector<Index>, 4>> sides;
 };
 
-/// Meshes blocks by triangles. Each cell of a block is divided into two triangles with alternating
-/// diagonals. Inner nodes follow from transfinite interpolation (Gordon & Hall 1973). Mid-side
-/// nodes of six-node triangles along a curved side of a block lie on the curve. Nodes of different
-/// blocks are merged if their distance is below 1e-9 times the diagonal of the bounding box of the
-/// mesh.
+/// Divides the blocks of a plate into triangles. Each cell of a block is divided into two triangles
+/// with alternating diagonals. Inner nodes follow from transfinite interpolation (Gordon & Hall
+/// 1973). Mid-side nodes of six-node triangles along a curved side of a block lie on the curve.
+/// Nodes of different blocks are merged if their distance is below 1e-9 times the diagonal of the
+/// bounding box of the mesh.
 /// @throws ModelError  if there is no block, a corner is not on the ellipse of an adjacent side, a
 ///   block has no cells, or a grading is not positive.
 [[nodiscard]] BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes);
@@ -76,7 +76,8 @@ struct RectangleMesh {
   /// alternating diagonals.
   Index cells = 1;
   bool six_nodes = false;
-  double distortion = 0;  ///< displacement of inner corner nodes [cell size], 0 <= d < 0.3
+  /// Displacement of the cell corners inside the rectangle [cell size], at least 0, below 0.3.
+  double distortion = 0;
 };
 
 /// Returns a model of one rectangular plate, which is meshed by triangles. The model has no
@@ -90,7 +91,8 @@ struct DistortedLine {
   Vector2d start = Vector2d::Zero();  ///< start point of the line [m]
   Vector2d end = Vector2d::Zero();    ///< end point of the line [m]
   Index cells = 1;
-  double distortion = 0;  ///< displacement of every second inner node [cell length], 0 <= d < 1
+  /// Displacement of every second inner node along the line [cell length], at least 0, below 1.
+  double distortion = 0;
 };
 
 /// Returns a model of a straight line of members, with one member per cell. The first node of the

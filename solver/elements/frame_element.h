@@ -55,7 +55,8 @@ template <Real T>
 }
 
 /// Returns the deformation matrix B, 3 x 6, of an element along `direction` (unit vector, world
-/// axes). B maps degrees of freedom in world axes to deformations d [m, rad, rad].
+/// axes). B maps degrees of freedom in world axes to the elongation, the symmetric bending and the
+/// antisymmetric bending of the element [m, rad, rad].
 template <Real T = double>
 [[nodiscard]] Matrix36<T> frame_deformation_matrix(const Eigen::Vector2<T>& direction,
                                                    const std::type_identity_t<T>& length) {

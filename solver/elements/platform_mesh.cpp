@@ -22,7 +22,7 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 /// Adds the mid-side nodes of all triangles. Two triangles share the node of a common side.
 void add_middles(TriangleMesh& mesh) {
   mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
-  std::unordered_map<Index, Index> middle;  // mid-side node by the indices of the end nodes
+  std::unordered_map<Index, Index> middle;  // mid-side node of the side with given end nodes
   middle.reserve(2 * mesh.triangles.size());
   for (TriangleMesh::Nodes& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -132,7 +132,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                            int refinements, bool six_nodes) {
   constexpr int kMaxRefinements = 10;
   if (refinements < 0 || refinements > kMaxRefinements)
-    throw ModelError("the platform's refinements must be 0 to 10 (10: three million triangles)");
+    throw ModelError("a platform mesh must have 0 to 10 refinements (10: three million triangles)");
   const bool clockwise = twice_area(vertices[0], vertices[1], vertices[2]) < 0;
   TriangleMesh mesh;
   mesh.nodes.assign(vertices.begin(), vertices.end());
@@ -143,7 +143,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                                             : TriangleMesh::Nodes{i, j, 3, -1, -1, -1};
     const auto corner = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     if (!(twice_area(corner(0), corner(1), corner(2)) > 0))
-      throw ModelError("P must lie inside the triangle C1 C2 C3 of the meshed platform");
+      throw ModelError("the point P must lie inside the triangle C1 C2 C3 of the meshed platform");
     mesh.triangles.push_back(t);
   }
   for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));

@@ -120,7 +120,7 @@ struct TriangleStiffness {
   Eigen::Matrix<double, kRows, 1> c;  ///< rigidity of each deformation [N m]
 };
 
-/// Computes the factors B and c of the stiffness matrix of a triangle.
+/// Computes the factors B and c of the stiffness matrix k = B^T diag(c) B of a triangle.
 /// Source: Varalakshmi & Srinivas (2017), Eq. 8; Zienkiewicz & Taylor.
 template <std::size_t n>
 [[nodiscard]] TriangleStiffness<n> triangle_stiffness(const TriangleNodes<n>& nodes,

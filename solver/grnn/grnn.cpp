@@ -29,22 +29,22 @@ bool squarable(const Eigen::MatrixXd& m) {
 
 Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
                const Eigen::VectorXd& scale) {
-  require(inputs.rows() >= 1, "a GRNN requires at least one sample");
-  require(inputs.rows() == outputs.rows(), "a GRNN requires one output row for each input row");
-  require(inputs.cols() >= 1 && outputs.cols() >= 1, "a GRNN requires an input and an output");
-  require(outputs.allFinite(), "an output of a GRNN sample is not finite");
-  require(scale.size() == inputs.cols(), "a GRNN requires one scale for each input");
+  require(inputs.rows() >= 1, "a regression network (GRNN) requires at least one sample");
+  require(inputs.rows() == outputs.rows(), "a network requires one output row for each input row");
+  require(inputs.cols() >= 1 && outputs.cols() >= 1, "a network requires an input and an output");
+  require(outputs.allFinite(), "an output of a regression network (GRNN) sample is not finite");
+  require(scale.size() == inputs.cols(), "a regression network requires one scale per input");
   require(scale.allFinite() && (scale.array() > 0).all(),
-          "the scale of each input of a GRNN must be positive");
+          "the scale of each input of a regression network (GRNN) must be positive");
   require(squarable(inputs * scale.cwiseInverse().asDiagonal()),
-          "a scaled input of a GRNN sample is not finite or too large to be squared");
+          "a scaled input of a network sample is not finite or too large to be squared");
   return {inputs, outputs, scale, sigma};
 }
 
 Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
                InputScaling scaling) {
-  require(inputs.rows() >= 1, "a GRNN requires at least one sample");
-  require(squarable(inputs), "an input of a GRNN sample is not finite or too large to be squared");
+  require(inputs.rows() >= 1, "a regression network (GRNN) requires at least one sample");
+  require(squarable(inputs), "a network input is not finite or too large to be squared");
   return make_grnn(inputs, outputs, sigma, input_scales(inputs, scaling));
 }
 
@@ -53,9 +53,9 @@ double sigma_of_newgrnn_spread(double spread) {
 }
 
 Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
-  require(queries.cols() == network.inputs.cols(), "a GRNN query requires one value per input");
+  require(queries.cols() == network.inputs.cols(), "a network query requires one value per input");
   require(network.sigma >= std::numeric_limits<double>::min() && std::isfinite(network.sigma),
-          "the sigma of a GRNN must be a positive normal number");
+          "the sigma of a regression network (GRNN) must be a positive normal number");
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const Eigen::MatrixXd scaled =
       network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // one column per query

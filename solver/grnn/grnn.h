@@ -62,7 +62,8 @@ struct Grnn {
 ///   a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-// Functions for the kernel weights of a GRNN, used by prediction and cross-validation.
+// Functions for the kernel weights of a general regression neural network, used by prediction and
+// cross-validation.
 
 /// Returns the scale of each input (column of the samples) by the rule `scaling`. The scale of a
 /// constant input is 1.

@@ -17,7 +17,7 @@ namespace {
 void check_sigmas(const Eigen::VectorXd& sigmas) {
   require(sigmas.size() >= 1, "cross-validation requires at least one sigma");
   require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
-          "every sigma of a GRNN must be a positive normal number");
+          "every sigma of a regression network (GRNN) must be a positive normal number");
 }
 
 /// Returns the sample indices 0, 1, ..., optionally in the random order of the Fisher-Yates

@@ -6,7 +6,8 @@
 
 #include "solver/grnn/grnn.h"
 
-/// Choice of the smoothing parameter sigma of a GRNN by cross-validation.
+/// Choice of the smoothing parameter sigma of a general regression neural network (GRNN) by
+/// cross-validation.
 namespace trammel::solver {
 
 /// Rule by which samples are assigned to the folds of a cross-validation. Successive samples of a
@@ -52,10 +53,11 @@ enum class Split {
 
 /// Result of a search for the smoothing parameter sigma.
 struct SigmaSearch {
-  double sigma = 0;        ///< sigma with the least error [-]
-  double error = 0;        ///< cross-validation error of `sigma` [-]
-  bool bracketed = false;  ///< false: the least error is at an end of the grid and is not refined
-  Eigen::VectorXd grid;    ///< sigmas of the grid, ascending
+  double sigma = 0;  ///< sigma with the least cross-validation error [-]
+  double error = 0;  ///< cross-validation error of `sigma` [-]
+  /// false: the least error is at an end of the grid of sigmas and is not refined.
+  bool bracketed = false;
+  Eigen::VectorXd grid;        ///< sigmas of the grid, ascending
   Eigen::VectorXd grid_error;  ///< cross-validation errors on the grid [-]
   Index evaluations = 0;       ///< total number of sigmas evaluated
 };

@@ -140,7 +140,7 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
 /// Computes the moments from rotations relative to the first node, so that a rigid rotation cancels
 /// before the multiplication by the stiffness. Otherwise, the round-off error of the rotation would
 /// act as a moment at every node. In a member of length L with n elements, the sum of these moments
-/// would be n^2 eps EI/L.
+/// would be n^2 eps EI/L, with the machine precision eps.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
   NodeValues relative = q(kTurns).array() - q[2];
   if (tau != 0) relative.array() += tau * (v(kTurns).array() - v[2]);

@@ -89,13 +89,15 @@ struct Beam : ElementSizes<12, 6> {
   [[nodiscard]] Square mass() const;
   /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const;
-  /// Returns the compliance of each constraint row: w h / EA (stretch) or w h / kGA (shear).
+  /// Returns the compliance of each constraint row: w h / EA (stretch) or w h / kGA (shear). w is
+  /// the Gauss weight, and h the element length.
   [[nodiscard]] Rows row_compliance() const;
   /// Returns the penalties rho of the constraint rows (see `KktMatrix`). The stiffness term of rho
   /// is a shear stiffness 12 EI/h^2, which is comparable with the bending stiffness. The mass term
   /// of rho is the mass of the element.
   [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const;
-  /// Returns the unit normal of the cross section at a node, which is t0 rotated by theta.
+  /// Returns the unit normal of the cross section at a node: the axis t0 of the unloaded element,
+  /// rotated by the rotation of the node.
   [[nodiscard]] Vector2d section_normal(const Coordinates& q, int node) const {
     return rotated(axis, q[3 * node + 2]);
   }

@@ -38,8 +38,8 @@ class ConsistentInitialization {
   }
 
   /// Computes the velocities v that satisfy the time derivatives of the constraints g as well as
-  /// possible. Returns the remaining residuals G v + dg/dt, which are not zero if drives contradict
-  /// the constraints.
+  /// possible. Returns the remaining residuals G v + dg/dt with the gradient G of g. They are not
+  /// zero if drives contradict the constraints.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -70,8 +70,9 @@ class ConsistentInitialization {
         .lpNorm<Eigen::Infinity>();
   }
 
-  /// Solves S x + G^T y = force, G x - C y = -row with the factored matrix. `solution_` becomes (x,
-  /// y). In elastic rows, the right-hand side is 0 instead of -row.
+  /// Solves S x + G^T y = force, G x - C y = -row for x and y, which are stored in `solution_`. S
+  /// is the matrix of `assemble`, G the gradient of the constraints, and C the matrix of their
+  /// compliances. In elastic rows, the right-hand side is 0 instead of -row.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -129,8 +130,8 @@ class ConsistentInitialization {
       state_.v = solution_.head(n_);
       if (change <= 1e-15 * weighted_rms_norm(system_, state_.v)) break;
     }
-    // Project the velocities v twice onto G v + dg/dt = 0. The projection removes the error that
-    // the regularization of the constraints causes.
+    // Project the velocities v twice onto G v + dg/dt = 0, with the gradient G of the constraints
+    // g. The projection removes the error that the regularization of the constraints causes.
     for (int i = 0; i < 2; ++i) {
       system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
       if (!solve(VectorXd::Zero(n_), constraint_rate_)) return false;
@@ -197,8 +198,9 @@ class ConsistentInitialization {
     return matrix_.factor(system_.has_symmetric_tangent()) && solve(-force_residual_, bias);
   }
 
-  /// Returns d(G v + dg/dt)/dt for zero acceleration, by a central difference along the motion. Ten
-  /// digits are sufficient, because the acceleration is only a start value of the time integration.
+  /// Returns the second time derivatives d(G v + dg/dt)/dt of the constraints g with gradient G,
+  /// for zero acceleration. They are computed by a central difference along the motion. Ten digits
+  /// are sufficient, because the acceleration is only a start value of the time integration.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;

@@ -60,7 +60,7 @@ ConstraintGaps MotionResiduals::largest_gaps(const State& state) {
 }
 
 AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
-  constexpr Index kLargest = 64;  // largest size of a determinant that is computed
+  constexpr Index kLargest = 64;  // largest size of a matrix whose determinant is computed
   const Index n = system.coordinate_count();
   const Index rigid = (system.row_compliance().array() == 0).count();
   freedom_ = n - rigid;

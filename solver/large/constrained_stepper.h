@@ -13,7 +13,8 @@ namespace trammel::solver::large_motion {
 
 /// Largest residuals of the rigid constraints in a state.
 struct ConstraintGaps {
-  double position = 0, rate = 0;  ///< largest residual [m or rad], largest rate [m/s or rad/s]
+  /// Largest residual [m or rad] and largest rate of a residual [m/s or rad/s].
+  double position = 0, rate = 0;
   /// Largest residual of all constraints [-], and largest time derivative of a residual [1/s].
   /// Residuals are relative to the model size for translations and to 1 rad for rotations.
   double relative_position = 0, relative_rate = 0;
@@ -26,9 +27,10 @@ class MotionResiduals {
   /// @pre The system outlives this object.
   explicit MotionResiduals(const ConstrainedSystem& system);
 
-  /// Returns the largest residual of a row of the equation of motion, relative to the terms |M| |a|
-  /// + |K| |q| + |G^T| |lambda| of this row. `state` is the state at the end of a step, and
-  /// `residual` is the residual of the equation of motion in the form of the time scheme.
+  /// Returns the largest residual of a row of the equation of motion. The residual is relative to
+  /// the magnitudes of inertia, stiffness and constraint forces in this row, |M| |a| + |K| |q| +
+  /// |G^T| |lambda|. `state` is the state at the end of a step, and `residual` is the residual of
+  /// the equation of motion in the form of the time scheme.
   [[nodiscard]] double motion_residual(const State& state, const VectorXd& residual);
   [[nodiscard]] ConstraintGaps largest_gaps(const State& state);
 
@@ -63,8 +65,9 @@ class AssemblyBranch {
   const ConstrainedSystem& system_;
   Index freedom_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
-  double last_sign_ = 0;             ///< sign after the last step without a branch change
-  std::optional<KktMatrix> matrix_;  ///< empty: the branch is not checked
+  /// Value of `branch_sign` after the last step without a branch change.
+  double last_sign_ = 0;
+  std::optional<KktMatrix> matrix_;  ///< matrix for `branch_sign`; empty: not checked
 };
 
 /// Function that receives each output state of a motion.
@@ -109,10 +112,11 @@ class ConstrainedStepper : public Stepper {
   struct Scheme {
     TimeScheme relations;
     double error_constant = 0;
-    bool keeps_rates = true;         ///< true: velocities satisfy rigid constraints at step ends
-    double acceleration_share = 1;   ///< factor of the accelerations in the limit `resolution`
-    double resolution = 0;           ///< limit of corrections relative to accelerations
-    double position_resolution = 0;  ///< limit of corrections relative to positions
+    bool keeps_rates = true;  ///< true: velocities satisfy rigid constraints at step ends
+    /// Weight of accelerations in the limit that `resolution` sets.
+    double acceleration_share = 1;
+    double resolution = 0;           ///< limit of Newton corrections relative to accelerations
+    double position_resolution = 0;  ///< limit of Newton corrections relative to positions
   };
   ConstrainedStepper(const ConstrainedSystem& system, const TransientOptions& options,
                      const State& start, const Observer& observe, const Scheme& scheme);

@@ -94,7 +94,7 @@ RowScales PenaltyScales::row_scales(std::span<const Index> coordinates, double l
       kind = std::max(kind, values[k]);
     }
     if (!(value > 0) && lever > 0) {
-      constexpr double kShortest = 1e-3;  // least lever relative to the model size
+      constexpr double kShortest = 1e-3;  // smallest lever arm relative to the model size
       const double length = std::max(lever, kShortest * size_);
       value = levered / (length * length);
     }

@@ -122,7 +122,8 @@ double Equilibrium::backward_error(const State& state) {
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   const Index n = system_.coordinate_count(), m = system_.constraint_count();
   if (n == 0) return 0;
-  // A start vector without symmetry is not orthogonal to any mode.
+  // The start vector of the inverse iteration has no symmetry, so that it is not orthogonal to any
+  // mode.
   VectorXd x(n + m);
   for (Index i = 0; i < n; ++i)
     x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
@@ -142,7 +143,7 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
 }
 
 Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
-  constexpr double kDriven = 1e-9;  // least relative work of the loads on a driven motion
+  constexpr double kDriven = 1e-9;  // least relative work of loads that drive a motion
   FreeMotion found;
   const Index n = system_.coordinate_count();
   if (n == 0) return found;

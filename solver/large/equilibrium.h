@@ -14,7 +14,8 @@ namespace trammel::solver::large_motion {
 /// Options of Newton's method.
 struct NewtonOptions {
   int max_iterations = 30;
-  double tolerance = 1e-13;  ///< limit of the last correction relative to the displacement [-]
+  /// Limit of the last Newton correction, relative to the displacement [-].
+  double tolerance = 1e-13;
   /// Relative change of the state above which the tangent is factored again [-].
   double same_state = 1e-7;
 };
@@ -59,7 +60,8 @@ class Equilibrium {
   /// Factors the tangent matrix at a state. The last factorization is kept if its state differs
   /// from `state` by at most `relative` times the size of `state`.
   [[nodiscard]] bool factor_if_moved(const State& state, double relative);
-  /// Computes `direction` = (dq/dload, dlambda/dload) with the last factored tangent matrix.
+  /// Computes the derivatives of displacements q and multipliers lambda with respect to the load
+  /// factor, `direction` = (dq/dload, dlambda/dload), with the last factored tangent matrix.
   void load_factor_sensitivity(const State& state, VectorXd& direction);
   /// Computes one Newton correction `step`, which solves: tangent matrix * step = -residual. Norms
   /// of the residual and of the correction are appended to `history`.
@@ -68,7 +70,8 @@ class Equilibrium {
   /// residual of equilibrium and constraints, x the unknowns, and K a newly assembled tangent.
   [[nodiscard]] double backward_error(const State& state);
   /// Returns the smallest absolute eigenvalue of the scaled tangent matrix [N m], and sets `shape`
-  /// to its mode shape. The eigenvalue is computed by inverse iteration with the last factors.
+  /// to its mode shape. The eigenvalue is computed by inverse iteration with the last
+  /// factorization.
   double smallest_eigenpair(VectorXd& shape);
 
   /// Motion for which the last tangent matrix has no stiffness: its strain energy is within the
@@ -76,7 +79,7 @@ class Equilibrium {
   struct FreeMotion {
     bool exists = false;
     bool is_driven = false;  ///< true: the loads do work on the motion
-    VectorXd shape;          ///< mode shape of the smallest eigenvalue, even if not free
+    VectorXd shape;          ///< mode shape of the smallest eigenvalue, also without free motion
     Index coordinate = 0;    ///< coordinate with the largest motion in `shape`
     double stiffness = 0;    ///< typical stiffness of `coordinate` [N/m or N m/rad]
   };

@@ -107,7 +107,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   SystemParts parts_;
   SystemRows rows_;
   VectorXd scale_;
-  Eigen::SparseMatrix<double> mass_;  ///< mass matrix of all coordinates, free and held
+  Eigen::SparseMatrix<double> mass_;  ///< mass matrix of the free and the supported coordinates
   VectorXd gravity_;                  ///< weight: M times the gravity field, for all coordinates
   VectorXd accelerations_;            ///< accelerations for inertia forces in statics; empty: none
   std::function<VectorXd(double)> undamped_velocities_;

@@ -136,8 +136,8 @@ Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
   if (summary.constraints.relative_position <= kLimit) return {};
   std::ostringstream message;
-  message << "the steps are too long to be extrapolated: the motion extrapolated from two step "
-             "sizes violates a constraint by "
+  message << "the time steps are too long to be extrapolated: the motion extrapolated from two "
+             "step sizes violates a constraint by "
           << summary.constraints.relative_position << " times the model size or 1 rad";
   return {Status::not_converged, message.str()};
 }
@@ -159,9 +159,9 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   MemberBalance balance;
   Outcome recovered;
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
-    // Exclude the first state from the member balance. If the step does not resolve all vibrations,
-    // the first accelerations are those of an implicit step and do not satisfy the equation of
-    // motion.
+    // Exclude the first state from the check of the equilibrium of the members. If the step does
+    // not resolve all vibrations, the first accelerations are those of an implicit step and do not
+    // satisfy the equation of motion.
     if (at.t > start && !conserves) balance.add_state(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);

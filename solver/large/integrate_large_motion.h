@@ -24,11 +24,12 @@ struct IntegrationSummary : TransientSummary {
                                            const TransientOptions& options,
                                            const Observer& observe = {});
 
-/// Integrates the motion with `step` and `step`/2 and extrapolates both results, which removes
-/// their error of second order. The result has order 3 (order 4 by energy-momentum). The step is
-/// fixed, and sample times must be multiples of the step. Output states contain q, v and lambda
-/// only. These states satisfy the constraints up to the extrapolation error. The outcome is
-/// not_converged if this error exceeds a thousandth of the model size.
+/// Integrates the motion with the time steps `step` and `step`/2 and extrapolates the two results,
+/// which removes the error of second order in the step. The result has order 3 (order 4 by
+/// energy-momentum). The step is fixed, and sample times must be multiples of the step. Output
+/// states contain q, v and lambda only. These states satisfy the constraints up to the
+/// extrapolation error. The outcome is not_converged if this error exceeds a thousandth of the
+/// model size.
 [[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system,
                                                         State& state,
                                                         const TransientOptions& options,

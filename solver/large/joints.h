@@ -19,7 +19,8 @@ namespace trammel::solver::large_motion {
 template <int Coords, int Count>
 struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;
-  double stiffness_scale = 1, mass_scale = 1;  ///< of the joined members or bodies [N/m], [kg]
+  /// Stiffness [N/m] and mass [kg] of the joined members or bodies.
+  double stiffness_scale = 1, mass_scale = 1;
 
   [[nodiscard]] Rows row_compliance() const { return Rows::Zero(); }
   [[nodiscard]] Rows row_penalty(const TangentCoefficients& coefficients) const {

@@ -129,12 +129,13 @@ class KktMatrix {
 
   Index coordinates_ = 0, constraints_ = 0;
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< order of elimination
-  Eigen::SparseMatrix<double> matrix_;                    ///< in elimination order, both triangles
+  Eigen::SparseMatrix<double> matrix_;                    ///< assembled matrix in elimination order
   std::vector<std::size_t> block_start_;
-  std::vector<int> value_index_;  ///< index of each block entry in the value array; -1: held
+  /// Index of each block entry in the value array; -1: ignored unknown.
+  std::vector<int> value_index_;
   std::vector<int> diagonal_;     ///< index of each diagonal entry in the value array
-  std::vector<Index> first_row_;  ///< first constraint row of each block
-  VectorXd multiplier_scaling_;   ///< rho / E of each constraint row
+  std::vector<Index> first_row_;  ///< first constraint row of each block (element)
+  VectorXd multiplier_scaling_;   ///< factor rho / E in dlambda, for each constraint row
   std::unique_ptr<Factors> factors_;
   mutable VectorXd work_, solution_;
   mutable std::int64_t solves_ = 0;

@@ -402,7 +402,7 @@ struct Turn {
 
 /// Extends a function of time beyond the ends of the path by extrapolation with the acceleration
 /// and the rate of the acceleration at the end.
-TimeFunction extended(const TimeFunction& law, const Path& path) {
+TimeFunction extrapolate_beyond_path(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
     std::array<double, 3> motion = law(end);
@@ -453,7 +453,7 @@ TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, dou
       if (next.time == t) return found;
     }
   };
-  return extended(law, path);
+  return extrapolate_beyond_path(law, path);
 }
 
 VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,

@@ -25,8 +25,8 @@ namespace trammel::solver {
 /// - Time schemes are replaced by generalized-alpha with the same spectral radius at infinite
 ///   frequency.
 /// - Time steps end at sample times and at kinks of the load history.
-/// - A quasi-static start computes the rates of the deflection from three equilibria. The first
-///   equilibrium is then corrected for the damping forces at these rates.
+/// - A quasi-static start computes the rates of the deflection from the equilibria at three times.
+///   The first equilibrium is then corrected for the damping forces at these rates.
 ///
 /// The outcome is not_converged if a path of equilibria or a step fails.
 /// @throws ModelError  as `solve_elastodynamics`; if `reason_no_large_displacement` returns a
@@ -52,13 +52,13 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// because all joints and all corrections of a step request the motion at the same time.
 [[nodiscard]] RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate);
 
-/// Returns the rotation of a part since the time `start` as a function of time. The rotation [rad]
-/// includes full turns and is relative to the part `reference_part` or the ground (-1). Parts are
-/// indices in `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. To
-/// count full turns, the rotation is followed from the last requested time in increments of at most
-/// 0.5 rad. Beyond the ends of the path, the rotation is extrapolated with the acceleration and the
-/// rate of the acceleration at the end. Central differences in time at the first and last times of
-/// the path require values beyond its ends.
+/// Returns the rotation of a link or of the platform since the time `start` as a function of time.
+/// The rotation [rad] includes full turns and is relative to the body `reference_part` or the
+/// ground (-1). Bodies are indices in `InverseDynamics::q`: proximal links 0 to 2, distal links 3
+/// to 5, platform 8. To count full turns, the rotation is followed from the last requested time in
+/// increments of at most 0.5 rad. Beyond the ends of the path, the rotation is extrapolated with
+/// the acceleration and the rate of the acceleration at the end. Central differences in time at the
+/// first and last times of the path require values beyond its ends.
 [[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
                                               double start, Index part, Index reference_part = -1);
 
@@ -66,7 +66,7 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// relative to the node of the joint.
 struct DrivenEnd {
   Index node = 0, beside = 0;
-  Index part = 0, from = 0;  ///< indices of link and joined part in `InverseDynamics::q`
+  Index part = 0, from = 0;  ///< indices of link and joined body in `InverseDynamics::q`
   std::size_t member = 0;
 };
 

@@ -8,9 +8,9 @@
 
 #include "solver/model/model.h"
 
-/// Additional parts of a `Model` in large motion: drives, torques, sliding joints, springs along a
-/// line, follower loads, load history, damping and initial velocities. All quantities are in SI
-/// units and refer to the pose of the model.
+/// Additions to a `Model` for large motion: drives, torques, sliding joints, springs along a line,
+/// follower loads, load history, damping and initial velocities. All quantities are in SI units and
+/// refer to the pose of the model.
 namespace trammel::solver::large_motion {
 
 /// Prescribed displacement or rotation as a function of time, or of the load factor in statics. The
@@ -67,7 +67,8 @@ struct InitialVelocity {
   double value = 0;
 };
 
-/// Additional parts and properties of a `Model` in large motion.
+/// Additions to a `Model` for large motion: drives, joints, springs, loads, damping and initial
+/// velocities.
 struct LargeMotionModel {
   std::vector<Drive> drives;
   std::vector<Torque> torques;
@@ -81,9 +82,9 @@ struct LargeMotionModel {
   double strain_rate_damping = 0;        ///< tau in stress = D (strain + tau * strain rate) [s]
 };
 
-/// Checks the node indices and the numbers of drives, loads and joints.
+/// Checks the node indices and the numerical values of drives, loads and joints.
 /// @throws ModelError  if a drive, load or joint refers to a node that does not exist or has an
-///   invalid number.
+///   invalid value.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 
 }  // namespace trammel::solver::large_motion
@@ -123,8 +124,8 @@ struct MemberElement {
 };
 
 /// Numbering of the coordinates. Free coordinates come first, then coordinates held by supports. A
-/// coordinate with an index >= `free` is therefore always zero. Joined parts share coordinates if
-/// possible:
+/// coordinate with an index >= `free` is therefore always zero. Joined members and bodies share
+/// coordinates if possible:
 ///
 /// - The nodes of a revolute joint share the translations.
 /// - A welded member end and its node share the rotation.
@@ -133,12 +134,13 @@ struct MemberElement {
 struct Layout {
   Index free = 0;
   Index total = 0;
-  std::vector<std::array<Index, 3>> node;  ///< x, y, rotation of each node (-1: no rotation)
-  std::vector<std::array<Index, 2>> end_rotation;  ///< rotations of the ends of each member
+  std::vector<std::array<Index, 3>> node;  ///< coordinates of each node; -1: no rotation
+  /// Rotation coordinates of the ends of each member.
+  std::vector<std::array<Index, 2>> end_rotation;
   std::vector<MemberElement> elements;
   std::vector<Index> first_element;  ///< first element of each member, then the number of elements
   std::vector<std::array<Index, 2>>
-      mass_center;             ///< x, y of the center of each point mass (or of its node)
+      mass_center;             ///< coordinates of the center of each point mass (or of its node)
   std::vector<int> direction;  ///< direction of each coordinate: 0: x, 1: y, 2: rotation
 
   [[nodiscard]] bool is_rotation(Index coordinate) const {

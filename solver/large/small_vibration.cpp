@@ -223,7 +223,8 @@ Extended beside(const GeometricallyExactSystem& system, const State& state, cons
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
     if (!K.is_nonsingular()) continue;
-    const int passes = aside == kAside ? 4 : 20;  // each pass scales other modes by `aside`
+    // Each pass reduces other modes by the factor `aside`.
+    const int passes = aside == kAside ? 4 : 20;
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
       const Extended next = K.solve(inertia);
@@ -254,7 +255,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   }
   const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
   if (L.cols() == 0) {
-    found.outcome = {Status::singular, "nothing vibrates: no part that can move has a mass"};
+    found.outcome = {Status::singular, "nothing vibrates: no movable coordinate has a mass"};
     return found;
   }
   Spectrum modes = spectrum(K, L, 0, system.has_symmetric_tangent());

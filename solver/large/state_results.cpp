@@ -97,8 +97,8 @@ struct FreeBody {
 };
 
 /// Returns the sums of forces and moments on a bending member that is cut free at both ends.
-FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, Index first,
-                  Index last) {
+FreeBody sum_forces_on_member(const GeometricallyExactSystem& system, const State& state,
+                              Index first, Index last) {
   constexpr int kLast = BeamInterpolation::kNodes - 1;
   FreeBody body{PlacedElement<Beam>{system, state, first}.position(0)};
   for (const bool at_start : {true, false}) {
@@ -185,7 +185,7 @@ void MemberBalance::add_state(const GeometricallyExactSystem& system, const Stat
   for (std::size_t m = 0; m < system.model().members.size(); ++m) {
     const Index first = layout.first_element[m], last = layout.first_element[m + 1] - 1;
     if (layout.elements[to_size(first)].is_bar()) continue;
-    const FreeBody body = cut_free(system, state, first, last);
+    const FreeBody body = sum_forces_on_member(system, state, first, last);
     force_ = nan_max(force_, body.force.norm());
     moment_ = nan_max(moment_, std::abs(body.moment));
     force_terms_ = std::max(force_terms_, body.force_terms);

@@ -195,8 +195,8 @@ class PathFollower {
   double dot(const VectorXd& a, const VectorXd& b) const { return a.cwiseProduct(metric_).dot(b); }
   VectorXd normalized(const VectorXd& d) const { return d / std::sqrt(dot(d, d)); }
 
-  /// Returns the tangent direction of the path, computed with the last factorization and oriented
-  /// like `along`.
+  /// Returns the tangent direction of the path, computed with the last factorization. Its sense is
+  /// that of the direction `along`.
   VectorXd tangent(const State& state, const VectorXd& along) {
     VectorXd step;
     equilibrium_.load_factor_sensitivity(state, step);
@@ -443,7 +443,7 @@ class PathFollower {
     const PathPoint& point = last();
     std::ostringstream message;
     message << why << " after point " << point_count_ << " at load factor " << point.state.load
-            << ", arc step " << arc_step_ << ", residual "
+            << ", arc-length step " << arc_step_ << ", residual "
             << (point.newton.force_residual.empty() ? 0.0 : point.newton.force_residual.back())
             << " N m" << drive_conflicts_text(system_, point.state, std::abs(arc_step_));
     return stop({Status::not_converged, message.str()});

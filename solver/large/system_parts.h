@@ -40,7 +40,7 @@ struct SystemParts {
 
 /// Builds the elements of a model, and numbers the coordinates and constraint rows.
 /// @throws ModelError  if the model is invalid. Examples: a triangle has no area; a drive moves a
-///   supported or unconnected coordinate; a constraint refers to a missing part or mixes
+///   supported or unconnected coordinate; a constraint refers to a missing node or member, or mixes
 ///   translations and rotations.
 [[nodiscard]] SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion,
                                       Layout& layout);

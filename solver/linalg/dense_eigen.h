@@ -34,8 +34,9 @@ struct ComplexEigenpairs {
 
 /// Solution of three linear equations A x = b, and the ratio of the smallest to the largest pivot.
 struct PivotedSolution {
-  Eigen::Vector3d x;                     ///< meaningless if A is singular
-  double smallest_to_largest_pivot = 0;  ///< |R_33| / |R_11|; near 0 if A is singular
+  Eigen::Vector3d x;  ///< meaningless if A is singular
+  /// |R_33| / |R_11| of the QR factor R; near 0 if A is singular.
+  double smallest_to_largest_pivot = 0;
 };
 /// Solves A x = b by a QR decomposition A P = Q R with column pivoting.
 [[nodiscard]] PivotedSolution pivoted_solve(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);

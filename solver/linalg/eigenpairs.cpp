@@ -284,7 +284,7 @@ class Solver {
     }
   }
 
-  /// Computes the Rayleigh quotients (eigenvalue estimates) of the block vectors. Quotients and
+  /// Computes the Rayleigh quotients (eigenvalue estimates) of the iterated vectors. Quotients and
   /// vectors are sorted in ascending order of the quotients.
   void values() {
     if (pencil_.indefinite) keep_positive();
@@ -300,8 +300,8 @@ class Solver {
     X_ = X_(Eigen::all, order).eval();
   }
 
-  /// Removes block vectors x for which x^T B x is negative, or zero up to round-off. If the block
-  /// has more vectors than positive eigenvalues exist, such vectors from the null space of B
+  /// Removes iterated vectors x for which x^T B x is negative, or zero up to round-off. If there
+  /// are more iterated vectors than positive eigenvalues, such vectors from the null space of B
   /// converge to negative eigenvalues.
   void keep_positive() {
     const MatrixXd BX = pencil_.B->transpose() * X_;
@@ -351,7 +351,8 @@ class Solver {
     const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
     double& shift = pairs_.check_shift;
-    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // tried until no pivot is near zero
+    // Shifts tried until no pivot is near zero.
+    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {
       if (p == 0) {
         shift = std::abs(pencil_.shift) * fraction;
       } else {
@@ -431,8 +432,8 @@ class Solver {
   MatrixXd all_;     // dense method: all eigenvectors, in descending order of mu
   Index taken_ = 0;  // dense method: number of columns of `all_` used so far
   Index checked_ = 0, counted_ = 0;
-  // True if the shift of the last Sturm check is further from all eigenvalues than their round-off
-  // error.
+  // True if the shift of the last count of negative pivots is farther from all eigenvalues than
+  // their round-off error.
   bool clear_of_rounding_ = true;
   bool failed_ = false;  // an eigenvalue iteration or inverse iteration has not converged
   Eigenpairs pairs_;

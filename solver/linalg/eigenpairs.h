@@ -80,7 +80,8 @@ struct Eigenpairs {
 
 /// Returns the number of eigenvalues that are missing or superfluous among the computed
 /// eigenvalues. The function compares the number of computed eigenvalues below the last clear gap
-/// with `count_below`. The result is infinite if no gap allows a reliable count.
+/// between adjacent eigenvalues with `count_below`. The result is infinite if no gap allows a
+/// reliable count.
 /// @param found  computed eigenvalues, ascending, >= 0; 0 for rigid modes.
 /// @param count_below  returns the number of eigenvalues below a shift, or an empty value if the
 ///   number is unreliable.
@@ -90,7 +91,8 @@ struct Eigenpairs {
 /// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. The
 /// number of eigenvalues below a shift t is the number of negative pivots of A - t B (Sylvester's
 /// law of inertia). If A - shift_above B has as many negative pivots as eigenvalues were computed,
-/// the result is 0. Otherwise, the eigenvalues below the last clear gap are counted.
+/// the result is 0. Otherwise, the eigenvalues below the last clear gap between adjacent
+/// eigenvalues are counted.
 /// @param A  positive semidefinite matrix.
 /// @param B  symmetric matrix.
 /// @param found  computed eigenvalues t, ascending, >= 0.
@@ -127,8 +129,8 @@ struct LanczosPairs {
     const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
     const Eigen::VectorXd& start, const LanczosOptions& options);
 
-/// Returns start vectors for an eigenvalue iteration: numbers in [-1, 1) that are the same on every
-/// machine.
+/// Returns start vectors for an eigenvalue iteration: pseudo-random numbers in [-1, 1) that are the
+/// same on every machine.
 /// @param rows  number of rows.
 /// @param columns  number of vectors.
 /// @param variant  number that selects the sequence of random numbers.

@@ -73,8 +73,9 @@ class Factorization {
   /// Returns false if a pivot of the last factorization is zero or not finite. The factors must not
   /// be used in this case.
   [[nodiscard]] bool is_nonsingular() const { return exists_; }
-  /// Returns the smallest pivot. This pivot is at most 1, because S A S has a unit diagonal. For a
-  /// positive definite A, the pivot is at least the smallest eigenvalue of S A S.
+  /// Returns the smallest pivot of the scaled matrix S A S. This pivot is at most 1, because the
+  /// scaling S gives the matrix a unit diagonal. For a positive definite A, the pivot is at least
+  /// the smallest eigenvalue of S A S.
   [[nodiscard]] double smallest_pivot() const;
   /// Returns the number of negative eigenvalues of A (Sylvester's law of inertia).
   [[nodiscard]] Index negative_pivots() const { return ldlt_.negative_pivots(); }
@@ -125,9 +126,9 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// Solution of a linear system by iterative refinement.
 struct RefinedSolution {
   Eigen::VectorXd x;
-  /// Norm of the last correction of the iterative refinement, relative to x. The remaining error is
-  /// about the square of this correction, divided by the previous correction. x is meaningless if
-  /// `correction` is near 1 or above.
+  /// Norm of the last correction of the iterative refinement, relative to the solution x. The
+  /// remaining error is about the square of this correction, divided by the previous correction. x
+  /// is meaningless if `correction` is near 1 or above.
   double correction = 0;
   /// Returns false if the matrix is so ill-conditioned that the solution has no correct digits.
   [[nodiscard]] bool converged() const { return correction < 1e-4; }

@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Factor of the unknowns s in the augmented system. The factor is far below the relevant singular
-// values of the scaled A. Row exchanges therefore select pivots from A, and the elimination does
-// not form K.
+// Factor of the unknowns s in the augmented system C^-1 s = A q, A^T s = f. The factor is far below
+// the relevant singular values of the scaled A. Row exchanges therefore select pivots from A, and
+// the elimination does not form K.
 // Source: Bjorck (1996), ch. 2.5.3, alpha.
 constexpr double kAlpha = 1e-12;
 

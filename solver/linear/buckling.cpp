@@ -20,7 +20,7 @@ namespace {
 struct FirstFactor {
   /// false: the numbers of negative pivots are unreliable.
   bool determined = false;
-  bool exists = false;  ///< false: there is no factor up to `checked`
+  bool exists = false;  ///< false: there is no buckling factor up to `checked`
   /// Lower bound of the lowest buckling factor, at least a fifth of this factor.
   double below = 0;
   double checked = 0;  ///< largest t for which the negative pivots were counted
@@ -28,12 +28,13 @@ struct FirstFactor {
 
 FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
                                  Factorization& factorization, Counters& counters) {
-  // Limit of the number of reductions of t by the factor 1/4, in total 120 orders of magnitude.
+  // Limit of the number of reductions of the load factor t by the factor 1/4, in total 120 orders
+  // of magnitude.
   constexpr int kHalvings = 200;
   FirstFactor first;
-  // `largest` and `least` are the extreme magnitudes of the entries of B. The entries are scaled
-  // with the factors that give K a unit diagonal. `least` excludes round-off errors of the largest
-  // entry.
+  // `largest` and `least` are the extreme magnitudes of the entries of B = -K_G. The entries are
+  // scaled with the factors that give K a unit diagonal. `least` excludes round-off errors of the
+  // largest entry.
   constexpr double kRoundoff = 1e4 * kEps;
   const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
   const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
@@ -42,13 +43,13 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   double least = largest;
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  // Largest load factor t to check. The nonzero entries of t B then exceed those of K at least a
-  // thousandfold, unless the largest entry would exceed 1e10. The stiffness of unloaded parts then
-  // loses at most ten digits.
+  // Largest load factor t to check. The nonzero entries of t B = -t K_G then exceed those of K at
+  // least a thousandfold, unless the largest entry would exceed 1e10. The stiffness of unloaded
+  // members then loses at most ten digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
-    // Reduce t until no pivot is near zero.
+    // Reduce the load factor t until no pivot of K + t K_G is near zero.
     for (const double share : {1.0, 0.93, 0.87}) {
       counted = share * t;
       ++counters.factorizations;

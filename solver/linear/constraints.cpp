@@ -27,8 +27,8 @@ std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& c
       const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
       if (u < 0)
         throw ModelError("the support of " + node_label(model, support.node) +
-                         " fixes a rotation that the node does not have: no member ends there and "
-                         "no rigid body contains the node");
+                         " fixes a rotation that the node does not have: no member end is joined "
+                         "to the node and no rigid body contains the node");
       rows.push_back({ConstraintRow::Source::support, static_cast<Index>(i), {{u, 1.0}}});
     }
   }
@@ -91,7 +91,7 @@ class Elimination {
         occurrences_(scale_.size(), 0),
         row_of_(scale_.size(), -1) {
     for (std::size_t u = 0; u < scale_.size(); ++u) {
-      // Scale factor in u = scale * (scaled u).
+      // Scale factor of a coordinate u, defined by u = scale * (scaled u).
       if (coordinates.is_rotation[u]) scale_[u] = 1 / size;
     }
   }

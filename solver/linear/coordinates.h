@@ -7,12 +7,14 @@
 
 namespace trammel::solver {
 
-/// Finite element of a member: one of its parts of equal length, between two nodes of the mesh.
+/// Finite element of a member, between two nodes of the mesh. All elements of a member have equal
+/// lengths.
 struct FrameElement {
   Index member = 0;
   std::array<Index, 2> nodes{};
-  /// Indices in u of the end displacements (u1 v1 θ1 u2 v2 θ2) in world axes. The indices of both
-  /// rotations are -1 for a bar, which does not bend.
+  /// Indices of the end displacements (u1 v1 θ1 u2 v2 θ2) in the vector of unconstrained
+  /// coordinates, in world axes. The indices of both rotations are -1 for a bar, which does not
+  /// bend.
   std::array<Index, 6> coordinates{};
   Section section;  ///< cross section at the midpoint of the element
   /// Length of the element [m].
@@ -28,7 +30,8 @@ struct FrameElement {
 struct Mesh {
   /// Positions of the nodes [m].
   std::vector<Vector2d> positions;
-  std::vector<FrameElement> frame;  ///< in the order of the members, from first to second node
+  /// Elements, in the order of the members, from first to second node.
+  std::vector<FrameElement> frame;
 };
 
 /// Numbering of the unconstrained coordinates u: the translations of every mesh node, the rotations
@@ -49,8 +52,9 @@ struct Coordinates {
   std::vector<Index> node_of;                    ///< index in u -> mesh node of this coordinate
   std::vector<bool> is_rotation;                 ///< index in u -> true for a rotation
 
-  /// Returns the indices in u of the translations (u1 v1 u2 v2 ...) of the first n / 2 nodes of a
-  /// triangle. The indices of a missing mid-side node are -1.
+  /// Returns the indices of the translations (u1 v1 u2 v2 ...) of the first n / 2 nodes of a
+  /// triangle. The indices refer to the vector of unconstrained coordinates. The indices of a
+  /// missing mid-side node are -1.
   template <std::size_t n>
   [[nodiscard]] std::array<Index, n> triangle_dofs(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
@@ -59,7 +63,8 @@ struct Coordinates {
     return numbers;
   }
 
-  /// Returns the index of a node translation, node rotation or member end rotation in u.
+  /// Returns the index of a node translation, node rotation or member end rotation in the vector u
+  /// of unconstrained coordinates.
   /// @throws ModelError  if the node or member end does not have the coordinate.
   [[nodiscard]] Index index_of(const Model& model, const Coordinate& coordinate) const;
 };

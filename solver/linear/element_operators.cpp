@@ -110,7 +110,7 @@ Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a) {
   return force;
 }
 
-FactoredStiffness factored_stiffness(const System& system) {
+FactoredStiffness factor_stiffness(const System& system) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> rigidity;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {

@@ -38,7 +38,8 @@ auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
 }
 
 /// Returns the change of the nodal forces B^T C B u of an element caused by rounding its
-/// displacements u: eps |B|^T C |B| |u|.
+/// displacements u: eps |B|^T C |B| |u|. B is the deformation matrix, and C contains the
+/// rigidities.
 template <class Matrix, class Rigidity, class Vector>
 auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
   const auto size = (B.cwiseAbs() * u.cwiseAbs()).eval();
@@ -94,22 +95,22 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// Returns the elastic forces K u on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
 
-/// Returns the change of K u caused by rounding u [N, N m]: eps times the sum of |B|^T C |B| |u|
-/// over all elements.
+/// Returns the change of the elastic forces K u caused by rounding u [N, N m]. The change is eps
+/// times the sum of |B|^T C |B| |u| over all elements with deformation matrices B and rigidities C.
 [[nodiscard]] Eigen::VectorXd internal_force_roundoff(const System& system,
                                                       const Eigen::VectorXd& u);
 
-/// Returns U^T K U for the columns of U (u x k) [J]. The diagonal contains twice the strain energy
-/// of each column.
+/// Returns U^T K U [J] with the stiffness matrix K. Each column of U contains displacements of all
+/// unconstrained coordinates. The diagonal contains twice the strain energy of each column.
 [[nodiscard]] Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U);
 
 /// Returns a bound of the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T
-/// C |B| |u| over all elements. The deformations are d = B u.
+/// C |B| |u| over all elements. The deformations are d = B u, and C contains their rigidities.
 [[nodiscard]] double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u);
 
-/// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
-/// |u|) over all elements. A motion with u^T K u below about eps^2 times this scale causes no
-/// deformation.
+/// Returns the scale of the round-off error of the strain energy [J]. The scale is the sum of (|B|
+/// |u|)^T C (|B| |u|) over all elements with deformation matrices B and rigidities C. A motion with
+/// u^T K u below about eps^2 times this scale causes no deformation.
 [[nodiscard]] double strain_energy_roundoff_scale(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
@@ -120,12 +121,13 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 
-/// Returns a bound of the change of the stress [Pa] of a triangle at a point, caused by rounding u.
+/// Returns a bound of the change of the stress [Pa] of a triangle at a point, caused by rounding
+/// the displacements u.
 [[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
                                            const Vector3d& at, const Eigen::VectorXd& u);
 
-/// Returns an operator that computes K q from the deformations of the elements, for free
-/// coordinates q.
+/// Returns an operator that computes the elastic forces K q from the deformations of the elements,
+/// for free coordinates q.
 [[nodiscard]] Operator stiffness_operator(const System& system);
 
 /// Returns the mass matrix of a frame element in world axes.
@@ -191,8 +193,8 @@ void for_each_mass_matrix(const System& system, Visit&& visit) {
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
 /// Sum of symmetric element matrices in the free coordinates. The element matrices are projected
-/// with the rows of T. Values of the same matrix entry are added in the order of the calls of
-/// `add`.
+/// with the rows of T, which maps free to unconstrained coordinates. Values of the same matrix
+/// entry are added in the order of the calls of `add`.
 class Projection {
  public:
   explicit Projection(const Constraints& constraints) : T_(constraints.T) {}
@@ -238,6 +240,6 @@ class Projection {
 /// Returns the stiffness matrix of the free coordinates in factored form, K = (B T)^T C (B T). B
 /// and C contain the deformation matrices and rigidities of all elements (`for_each_deformation`).
 /// Deformations without rigidity are omitted.
-[[nodiscard]] FactoredStiffness factored_stiffness(const System& system);
+[[nodiscard]] FactoredStiffness factor_stiffness(const System& system);
 
 }  // namespace trammel::solver

@@ -124,7 +124,8 @@ double energy_density(const Material& material, const Vector3d& s) {
 }
 
 /// Returns displacements and section forces at the fraction xi of the length of a frame element.
-/// `world` contains its end displacements in world axes. V and N are uniform in the element.
+/// `world` contains its end displacements in world axes. Axial force and shear force are uniform in
+/// the element.
 BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
                            double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);

@@ -56,9 +56,9 @@ void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
   visit(coordinates, B, Eigen::Matrix4d(Eigen::Vector4d(s[0], s[0], s[1], s[1]).asDiagonal()));
 }
 
-/// Calls visit(row, triangle, at, weight) for the stress points of plates. `row` is the row of
-/// Prestress::stress, `at` contains the area coordinates of the point, and `weight` is its fraction
-/// of the triangle area.
+/// Calls visit(row, triangle, at, weight) for all points of triangles at which stresses are stored.
+/// `row` is the row of Prestress::stress, `at` contains the area coordinates of the point, and
+/// `weight` is its fraction of the triangle area.
 template <class Visit>
 void for_each_stress_point(const Model& model, Visit&& visit) {
   Index row = 0;
@@ -72,7 +72,8 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
   }
 }
 
-/// Returns a matrix of zero stresses with one row for each stress point of the plates.
+/// Returns a matrix of zero stresses with one row for each point of a triangle at which stresses
+/// are stored.
 Eigen::MatrixX3d no_stress(const Model& model) {
   Index rows = 0;
   for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
@@ -103,7 +104,7 @@ TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, 
   return part;
 }
 
-/// Calls visit(coordinates, B, H) for every term B^T H B of the matrix K_G.
+/// Calls visit(coordinates, B, H) for every term B^T H B of the geometric stiffness matrix K_G.
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
   const Model& model = system.model;

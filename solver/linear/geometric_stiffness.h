@@ -54,8 +54,9 @@ struct BodyForces {
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
 /// Returns the magnitudes of the round-off errors of the internal forces of a state with the free
-/// coordinates q. The internal forces are forces of members, forces on arms of rigid bodies, and
-/// stresses of plates. The error of a stress is returned as equal tension in all directions.
+/// coordinates q. The internal forces are forces of members, forces on points of rigid bodies and
+/// rails (`TurningPart`), and stresses of plates. The error of a stress is returned as equal
+/// tension in all directions.
 [[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
 
 /// Returns the outcome `singular` if forces of redundant constraints stiffen or soften the model.

@@ -101,7 +101,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     solution.zero_energy_mode_count = free.count();
     if (!mass_orthonormalize(system, free.basis)) {
       solution.outcome = {Status::singular,
-                          "a part without mass moves freely: " + describe_mechanism(system, free)};
+                          "massless coordinate moves freely: " + describe_mechanism(system, free)};
       return solution;
     }
   } else if (!factorization.is_nonsingular() || factorization.smallest_pivot() <= 0) {

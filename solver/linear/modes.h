@@ -25,8 +25,8 @@ struct ModesOptions {
 /// does not grow with the condition number of K, which is proportional to the fourth power of the
 /// number of elements per wavelength.
 struct ModalSolution {
-  /// Outcome of the analysis. singular: a massless part moves freely, or the loads of a prestressed
-  /// model reach the buckling load. not_converged: a residual exceeds its limit.
+  /// Outcome of the analysis. singular: a massless coordinate moves freely, or the loads of a
+  /// prestressed model reach the buckling load. not_converged: a residual exceeds its limit.
   /// Residual::mode_count is such a residual: the number of modes that are missing according to
   /// Sylvester's law of inertia or were found twice.
   Outcome outcome;

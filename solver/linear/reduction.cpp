@@ -94,8 +94,8 @@ constexpr double kCarried = 1e-10;
 
 /// Returns the components of static responses that the modes do not represent. Each component has
 /// unit strain energy and is K-orthogonal to all preceding components.
-MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
-                      const std::vector<VectorXd>& responses) {
+MatrixXd residual_responses(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
+                            const std::vector<VectorXd>& responses) {
   MatrixXd parts(K.rows(), 0);
   for (VectorXd part : responses) {
     const double energy = part.dot(K * part);
@@ -111,8 +111,8 @@ MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const Matrix
 
 /// Returns the matrix R of the reduction q = R p. The components of p are the boundary coordinates,
 /// followed by the amplitudes of modes and static responses of each interior set.
-SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
-                       Counters& counters) {
+SparseMatrix reduction_matrix(const System& system, Index modes, const std::vector<VectorXd>& loads,
+                              Counters& counters) {
   const std::vector<std::vector<Index>> sets = interior_sets(system);
   const Index size = system.K.rows();
   std::vector<bool> interior(to_size(size), false);
@@ -150,7 +150,7 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
     }
     MatrixXd shapes(K.rows(), 0);
     if (modes > 0) shapes = fixed_interface_modes(K, M, modes, factorization, counters);
-    for (const MatrixXd& block : {shapes, beyond_modes(K, M, shapes, responses)}) {
+    for (const MatrixXd& block : {shapes, residual_responses(K, M, shapes, responses)}) {
       for (Index j = 0; j < block.cols(); ++j) add_column(block.col(j), set, columns++, entries);
     }
   }
@@ -159,7 +159,7 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
   return R;
 }
 
-SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
+SparseMatrix project_matrix(const SparseMatrix& matrix, const SparseMatrix& R) {
   const SparseMatrix product = R.transpose() * (matrix * R);
   // Make the product symmetric in all digits, because the factorization requires exact symmetry.
   return 0.5 * (product + SparseMatrix(product.transpose()));
@@ -169,8 +169,8 @@ SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
 System in_coordinates(const System& system, const SparseMatrix& R) {
   System reduced = system;
   reduced.T = system.T * R;
-  reduced.K = projected(system.K, R);
-  reduced.M = projected(system.M, R);
+  reduced.K = project_matrix(system.K, R);
+  reduced.M = project_matrix(system.M, R);
   reduced.f = R.transpose() * system.f;
   return reduced;
 }
@@ -180,14 +180,14 @@ System in_coordinates(const System& system, const SparseMatrix& R) {
 System reduce_members(const System& system, Index modes, const std::vector<VectorXd>& loads) {
   if (modes < 0) throw ModelError("the number of modes of a reduction must not be negative");
   Counters counters = system.counters;
-  System reduced = in_coordinates(system, reduction(system, modes, loads, counters));
+  System reduced = in_coordinates(system, reduction_matrix(system, modes, loads, counters));
   reduced.counters = counters;
   return reduced;
 }
 
 System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
-  // Shift relative to the highest eigenvalue of the modes.
+  // Shift of the stiffness matrix, relative to the highest eigenvalue of the modes.
   constexpr double kShift = 1e-4;
   const MatrixXd& shape = modes.shape;
   Counters counters = modes.counters;
@@ -207,7 +207,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
       ++counters.factorizations;
     }
     if (!factorization.is_nonsingular())
-      throw ModelError("the stiffness matrix to reduce is singular");
+      throw ModelError("the stiffness matrix of the model to be reduced is singular");
     VectorXd answer = factorization.solve(rest);
     // Correct the effect of the shift by one step of iterative refinement.
     answer += factorization.solve(rest - system.K * answer);
@@ -216,7 +216,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
   }
   // The responses have unit strain energy instead of unit mass, because responses may include
   // massless coordinates.
-  const MatrixXd beyond = beyond_modes(system.K, system.M, shape, responses);
+  const MatrixXd beyond = residual_responses(system.K, system.M, shape, responses);
   MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
   basis << shape, beyond;
   System reduced = in_coordinates(system, basis.sparseView());

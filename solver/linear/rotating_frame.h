@@ -51,8 +51,9 @@ struct RotatingFrame {
 /// [SI]. N is the interpolation of the displacements.
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
-/// Returns the centrifugal forces Omega^2 integral rho N^T (x - c + u) dV on the unconstrained
-/// coordinates [N, N m].
+/// Returns the centrifugal forces on the unconstrained coordinates [N, N m], Omega^2 integral rho
+/// N^T (x - c + u) dV. N is the interpolation of the displacements u, x the undeformed position,
+/// and c the center of rotation.
 [[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
 
@@ -66,7 +67,7 @@ struct RotatingOptions {
   Index count = 6;
   EigenMethod method =
       EigenMethod::automatic;  ///< for a stable state; an unstable state requires the dense method
-  bool gyroscopic = true;      ///< false: omit the Coriolis forces G
+  bool gyroscopic = true;      ///< false: omit the Coriolis forces
   bool stiffening = true;      ///< false: omit the geometric stiffness K_G
   /// true: K_G follows from the internal forces in the steady state. false: K_G follows from linear
   /// statics under the centrifugal forces on the undeformed structure, as in the classical

@@ -65,19 +65,20 @@ class RowBalance {
 /// Rayleigh damping, C = mass * M + stiffness * K. The factors are w1 and w2 in Varalakshmi &
 /// Srinivas (2017), Eq. 19.
 struct RayleighDamping {
-  /// Factor of the mass matrix, >= 0 [1/s].
+  /// Coefficient of the mass matrix M in C = mass * M + stiffness * K, >= 0 [1/s].
   double mass = 0;
-  /// Factor of the stiffness matrix, >= 0 [s].
+  /// Coefficient of the stiffness matrix K in C = mass * M + stiffness * K, >= 0 [s].
   double stiffness = 0;
 };
 
 /// Returns the damping ratio of Rayleigh damping [-], (mass / w + stiffness * w) / 2.
-/// @param damping  factors of the mass and stiffness matrices.
+/// @param damping  coefficients `mass` and `stiffness` of the damping matrix mass * M + stiffness *
+///   K.
 /// @param omega  angular frequency w > 0 [rad/s].
 [[nodiscard]] double damping_ratio(const RayleighDamping& damping, double omega);
 
-/// Returns the decay rates of modes, damping ratio * w = (mass + stiffness * w^2) / 2 [1/s]. A
-/// rigid mode has w = 0.
+/// Returns the decay rates damping ratio * w = (mass + stiffness * w^2) / 2 [1/s] of modes under
+/// Rayleigh damping. w is the angular frequency of a mode. A rigid mode has w = 0.
 [[nodiscard]] Eigen::VectorXd decay_rates(const RayleighDamping& damping,
                                           const Eigen::VectorXd& omega);
 
@@ -86,8 +87,8 @@ struct RayleighDamping {
 ///
 ///   w = (1 + sqrt(1 - mass * stiffness)) / stiffness.
 ///
-/// The result is infinite if the stiffness factor is zero. The result is 1 / stiffness if mass *
-/// stiffness >= 1; in this case no mode vibrates.
+/// The result is infinite if `stiffness` is zero. The result is 1 / stiffness if mass * stiffness
+/// >= 1; in this case no mode vibrates.
 [[nodiscard]] double overdamping_frequency(const RayleighDamping& damping);
 
 /// Returns the Rayleigh damping matrix mass * M + stiffness * K. Its sparsity pattern contains all

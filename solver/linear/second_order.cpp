@@ -22,7 +22,7 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
   ++counters.factorizations;
   solution.outcome = require_no_mechanism(system, factorization, counters);
   if (!solution.outcome.solved()) return solution;
-  const FactoredStiffness factors = factored_stiffness(system);
+  const FactoredStiffness factors = factor_stiffness(system);
   const SparseMatrix R = free_to_length_matrix(system);
   const auto take = [&](const VectorXd& q, double left, const Operator& inverse) {
     solution.q = q;
@@ -141,7 +141,7 @@ bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
   state.q = refined.x;
   if (refined.converged()) return true;
-  state.outcome = {Status::not_converged, "K + K_G is too ill-conditioned for double precision"};
+  state.outcome = {Status::not_converged, "stiffness too ill-conditioned for double precision"};
   return false;
 }
 
@@ -155,7 +155,7 @@ double StiffenedEquilibrium::relative_displacement_error(const StaticState& stat
     return factorization_.solve(b);
   };
   if (state.q.isZero(0)) return 0;
-  return forward_error(factored_stiffness(system_), lengths_, state.q, system_.f, inverse) +
+  return forward_error(factor_stiffness(system_), lengths_, state.q, system_.f, inverse) +
          displacement_roundoff_of_forces(state) / largest_displacement(state.q) + left_;
 }
 

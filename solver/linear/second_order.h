@@ -60,11 +60,11 @@ class StiffenedEquilibrium {
   StiffenedEquilibrium(const System& system, Counters& counters,
                        const SparseMatrix* softening = nullptr);
 
-  /// Solves for q with the K_G of the internal forces in `state`, or without K_G if `state` has no
-  /// internal forces. Returns false if no solution is found.
+  /// Solves (K + A + K_G) q = f for q. K_G follows from the internal forces in `state`, or is
+  /// omitted if `state` has no internal forces. Returns false if no solution is found.
   bool solve(const Eigen::VectorXd& f, StaticState& state);
-  /// Solves for q and updates the internal forces until q and the internal forces converge. The
-  /// iteration starts with `state`.
+  /// Solves (K + A + K_G) q = f repeatedly for q and updates K_G, until q and the internal forces
+  /// converge. The iteration starts with `state`.
   void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
 
   /// Returns the bound of the relative error of the displacements (StaticState::error) for the last
@@ -73,8 +73,8 @@ class StiffenedEquilibrium {
   /// Returns the sum of the softening matrix A and the geometric stiffness matrix K_G in the last
   /// equation that was solved.
   [[nodiscard]] const SparseMatrix& added_stiffness() const { return added_; }
-  /// Returns the restoring forces (K + A + K_G) q [N, N m]. K q is computed from the deformations
-  /// of the elements.
+  /// Returns the restoring forces (K + A + K_G) q of elastic stiffness, softening and geometric
+  /// stiffness [N, N m]. K q is computed from the deformations of the elements.
   [[nodiscard]] Eigen::VectorXd restoring_forces(const Eigen::VectorXd& q) const;
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 

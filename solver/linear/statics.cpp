@@ -42,14 +42,14 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
 
 /// Adds residuals to the evidence of the solution: the residual of K q + K_G q = f with newly
 /// computed matrices K and K_G, and the imbalance of the reported forces.
-void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
+void record_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
   rows.add_elastic_forces(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
-    // K_G results from differences of larger values. The round-off errors of these values are added
-    // to the scale of the residual.
+    // The geometric stiffness matrix K_G results from differences of larger values. The round-off
+    // errors of these values are added to the scale of the residual.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
     rows.add_term_magnitudes(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() /
                              kEps);
@@ -82,7 +82,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   state.u = system.T * solution.q;
   state.constraint_forces = constraint_multipliers(system, state);
   postprocess(system, state, solution);
-  take_residuals(system, state, solution);
+  record_residuals(system, state, solution);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;
 }
@@ -146,7 +146,8 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
   evaluate(e.length);
   const bool tapers = member.section.section_modulus != member.end_section.section_modulus ||
                       member.section.area != member.end_section.area;
-  // Number of intervals of the search, which underestimates a smooth maximum by less than 1 %.
+  // Number of intervals of the search for the largest stress, which underestimates a smooth maximum
+  // by less than 1 %.
   constexpr int kPoints = 16;
   for (int k = 1; tapers && k < kPoints; ++k) evaluate(e.length * k / kPoints);
   if (f.load.y() != 0) {
@@ -224,7 +225,7 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
 void sum_external_forces(const System& system, const ElasticState& state,
                          StaticSolution& solution) {
   VectorXd load = acting_load(system, state);
-  // Second-order theory: forces rotate with the part on which they act.
+  // Second-order theory: subtract the forces of the geometric stiffness.
   if (state.prestress) {
     load -= geometric_stiffness_forces(system, *state.prestress, state.u);
   }
@@ -260,7 +261,8 @@ VectorXd constraint_multipliers(const System& system, const ElasticState& state)
 }
 
 ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
-  // Relative limit, equal to the limit of the equilibrium residual.
+  // Limit relative to the largest end force or moment. It equals the limit of the residual
+  // `equilibrium`.
   constexpr double kShare = 1e-10;
   if (ends.cols() == 0) return {};
   double force = 0, moment = 0;

@@ -151,8 +151,8 @@ struct ForceSum {
 [[nodiscard]] Eigen::VectorXd constraint_multipliers(const System& system,
                                                      const ElasticState& state);
 
-/// Returns the forces of the nodes on the frame elements in a state: k u + k_G u + m a - f, with
-/// the load f.
+/// Returns the forces of the nodes on the frame elements in a state: k u + k_G u + m a - f. The
+/// element matrices are stiffness k, geometric stiffness k_G and mass m, and f is the load.
 [[nodiscard]] ElementForces end_forces(const System& system, const ElasticState& state);
 
 /// Returns the column of `StaticSolution::reaction` for a constraint row of a support.

@@ -109,8 +109,8 @@ Eigen::VectorXd weight_of(const System& system) {
   return weight;
 }
 
-/// Returns the loads on nodes, members and sides of plates, converted to forces on the coordinates
-/// u.
+/// Returns the loads on nodes, members and sides of plates, converted to forces on the
+/// unconstrained coordinates u.
 Eigen::VectorXd applied_load(const System& system) {
   const Model& model = system.model;
   const auto& node = system.coordinates.node;

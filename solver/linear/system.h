@@ -26,19 +26,20 @@ struct SpringElement {
 /// (LinearConstraint) and inextensible members.
 struct System {
   Model model;
-  Mesh mesh;                ///< node positions and elements, also for drawing
-  Coordinates coordinates;  ///< numbering of u
+  Mesh mesh;                ///< node positions and elements, also used for drawings
+  Coordinates coordinates;  ///< numbering of the unconstrained coordinates u
   Constraints constraints;
   std::vector<SpringElement> springs;
 
-  /// Matrix in u = T q, u x q.
+  /// Matrix T in u = T q: one row per unconstrained coordinate, one column per free coordinate.
   SparseMatrix T;
-  /// Stiffness matrix, q x q [SI]; symmetric, both triangles stored.
+  /// Stiffness matrix of the free coordinates q [SI]; symmetric, both triangles stored.
   SparseMatrix K;
-  /// Mass matrix, q x q [SI]; symmetric, both triangles stored; 0 x 0 without inertia.
+  /// Mass matrix of the free coordinates q [SI]; symmetric, both triangles stored; 0 x 0 without
+  /// inertia.
   SparseMatrix M;
-  Eigen::VectorXd f;       ///< loads on q [SI]
-  Eigen::VectorXd load;    ///< loads on u [SI]; f = T^T load
+  Eigen::VectorXd f;       ///< loads on the free coordinates q [SI]; f = T^T load
+  Eigen::VectorXd load;    ///< loads on the unconstrained coordinates u [SI]
   Eigen::VectorXd weight;  ///< part of `load` that is weight [SI]
   Counters counters;
 };

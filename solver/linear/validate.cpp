@@ -216,7 +216,7 @@ bool has_weight(const Model& model) {
                      [](const Plate& plate) { return plate.material.rho > 0; });
 }
 
-void take_mass(Section& section) {
+void remove_mass(Section& section) {
   section.mass_per_length = 0;
   section.inertia_per_length = 0;
 }
@@ -232,8 +232,8 @@ void restrict_effects(Member& member, Effects active) {
     if (!active.has(Effect::link_mass)) end.inertia = 0;
   }
   if (active.has(Effect::link_mass)) return;
-  take_mass(member.section);
-  take_mass(member.end_section);
+  remove_mass(member.section);
+  remove_mass(member.end_section);
 }
 
 }  // namespace

@@ -278,7 +278,7 @@ class MotionSolver {
   void record(const MotionSample& sample, double load_time) {
     if (!follower_.update_to(load_time)) return;
     const MovingSystem::Forces forces = follower_.forces(sample.q, sample.v, sample.a);
-    // At the end of a time step that is no sample, update only the balance of forces.
+    // At the end of a time step at which no sample is requested, update only the balance of forces.
     if (sample.index < 0) {
       static_cast<void>(postprocess_motion(moving_, sample.q, forces, balance_));
       return;

@@ -26,18 +26,19 @@ namespace trammel::solver {
 struct ElastodynamicsOptions {
   ManipulatorDesign design;
   Path path;
-  /// Load on the platform at P, world axes (Fx, Fy [N], M [N m]).
+  /// Load on the platform at its reference point P, world axes (Fx, Fy [N], M [N m]).
   Vector3d wrench = Vector3d::Zero();
   /// Factor on the wrench as a function of time; weight and inertia loads are not scaled.
   LoadHistory load_history;
   /// Acceleration of gravity in the plane of motion [m/s^2].
   Vector2d gravity = Vector2d::Zero();
-  /// Factors w_1 [1/s] and w_2 [s] as printed in Eq. 19.
+  /// Coefficients w_1 [1/s] and w_2 [s] of the damping matrix C = w_1 M + w_2 K. The default values
+  /// are those of Varalakshmi & Srinivas (2017), Eq. 19.
   RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};
 
-  bool nominal_inertia = true;  ///< true: inertia load f of the nominal motion, Eq. 14-17
-  bool elastic_inertia = true;  ///< true: M q.. and damping; false: quasi-static, K q = F + f
-  bool gyroscopic = false;      ///< true: terms G and S of moving links; requires elastic inertia
+  bool nominal_inertia = true;  ///< true: include the inertia load f of the nominal motion
+  bool elastic_inertia = true;  ///< true: inertia and damping; false: quasi-static motion
+  bool gyroscopic = false;      ///< true: gyroscopic terms; requires `elastic_inertia`
 
   /// Start, end, step, scheme, error control and sample times of the integration. The elastic
   /// motion starts in quasi-static equilibrium (`quasi_static_start`) or undeformed and at rest.
@@ -72,7 +73,7 @@ struct ElastodynamicsSolution {
   Outcome outcome;
   Evidence evidence;
   TransientSummary summary;
-  std::vector<double> time;              ///< [s]
+  std::vector<double> time;              ///< sample times [s]
   std::vector<TrajectoryPoint> nominal;  ///< nominal motion of the platform
   /// Displacements, reactions, section forces and stresses. Displacements are relative to the
   /// nominal position. Reactions and section forces are in equilibrium with loads, inertia and

@@ -148,7 +148,7 @@ class MotionIntegrator {
       ++result.steps;
       if (side() * side_ < 0) stop(Status::singular, kSingularity);
       if (last) t_ = end;
-      // A last step that was shortened does not reduce the next step.
+      // A step that was shortened to end at the requested time does not reduce the next step.
       h_ = tried < h_ ? std::max(h_, h) : h;
       return;
     }
@@ -163,9 +163,9 @@ class MotionIntegrator {
     }
   }
 
-  /// Returns det J_x, whose sign changes at a parallel singularity. The equation of motion in the
-  /// actuator angles has no solution at the singularity. A time step may jump over the singularity,
-  /// depending on round-off errors.
+  /// Returns the determinant of the parallel Jacobian matrix J_x, whose sign changes at a parallel
+  /// singularity. The equation of motion in the actuator angles has no solution at the singularity.
+  /// A time step may jump over the singularity, depending on round-off errors.
   [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
@@ -187,7 +187,7 @@ class MotionIntegrator {
   double t_, h_;
   double start_energy_ = kNaN, energy_size_ = 0, largest_imbalance_ = 0;
   double last_work_ = 0, turnover_ = 0;
-  double side_ = 0;  // det J_x at the start of the motion
+  double side_ = 0;  // determinant of the Jacobian matrix J_x at the start of the motion
   State y_, rate_;
 };
 
@@ -204,7 +204,7 @@ PlatformAcceleration forward_acceleration(const RigidManipulator& m, const Pose&
   const Vector3d force = torque + G.transpose() * wrench - terms.Ch * rates - terms.Nh;
   const Eigen::LLT<Matrix3d> llt(terms.Mh);
   if (llt.info() != Eigen::Success) {
-    result.outcome = {Status::singular, "the reduced mass matrix Mh is not positive definite"};
+    result.outcome = {Status::singular, "mass matrix of the actuator angles not positive definite"};
     return result;
   }
   const Vector3d active = llt.solve(force);

@@ -49,7 +49,7 @@ struct SeededLink {
 struct SeededDesign {
   std::array<SeededLink, 6> links;  ///< in the order of the members of the built model
   PlatformMassOf<Dual> platform_mass;
-  Dual plate_rigidity;  ///< E t, to which the stiffness of the triangles is proportional
+  Dual plate_rigidity;  ///< Young's modulus times thickness; scales the triangle stiffness
 };
 
 SeededLink make_link(const LinkDesignOf<Dual>& link, const Dual& nominal,
@@ -202,7 +202,7 @@ class SetDerivative {
 constexpr double kSameFrequency = 1e-7;
 
 /// Computes at least `count` modes, including all modes of the last set of repeated frequencies.
-ModalSolution whole_sets(const System& system, Index count) {
+ModalSolution modes_in_full_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
   Index wanted = std::min(all, count + kSpareModes);
@@ -272,7 +272,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
                                            Index count) {
   const System system = assemble(build_manipulator(design, pose));
   const Posture posture = inverse_kinematics(design.geometry, pose);
-  const ModalSolution modes = whole_sets(system, count);
+  const ModalSolution modes = modes_in_full_sets(system, count);
   FrequencySensitivity result;
   result.outcome = modes.outcome;
   result.evidence = modes.evidence;

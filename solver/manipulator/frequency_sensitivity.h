@@ -20,15 +20,15 @@ struct DesignParameter {
     E,
     density,
     poisson_ratio,  ///< Poisson's ratio of links and platform
-    base_side,      ///< side A1-A2; the base is scaled about A1
-    platform_side,  ///< side C1-C2; the platform is scaled about P
-    /// Mass of the platform; a printed inertia of the platform is not changed.
+    base_side,      ///< length of the base side A1-A2; the base is scaled about A1
+    platform_side,  ///< length of the platform side C1-C2; the platform is scaled about P
+    /// Mass of the platform; an inertia of the platform that the design contains is not changed.
     platform_mass,
-    /// Inertia of a rigid platform about P.
+    /// Moment of inertia of a rigid platform about its reference point P.
     platform_inertia,
-    active_stiffness,          ///< stiffness of the torsion springs at A
-    elbow_stiffness,           ///< stiffness of the torsion springs at B
-    platform_joint_stiffness,  ///< stiffness of the torsion springs at C
+    active_stiffness,          ///< stiffness of the torsion springs at the active joints A
+    elbow_stiffness,           ///< stiffness of the torsion springs at the elbow joints B
+    platform_joint_stiffness,  ///< stiffness of the torsion springs at the platform joints C
     orientation                ///< orientation phi of the platform
   };
   Kind kind = Kind::length;
@@ -81,7 +81,7 @@ template <class T>
 // The pose is fixed, so that the joint angles change with the link lengths. dK/dp and dM/dp are
 // exact, because sections and elements are computed with dual numbers (numbers.h). Derivatives by
 // parameters without dual numbers (`has_exact_derivative`) are NaN. The mass of a link follows from
-// its density unless the design contains a printed mass.
+// its density unless the design contains the mass of the link.
 
 /// Set of modes whose frequencies are equal up to round-off errors. The mode shapes are an
 /// arbitrary basis of a subspace. Only the derivatives of all modes of the set together are
@@ -92,7 +92,7 @@ struct FrequencySet {
 };
 
 /// Groups modes into sets of equal frequencies.
-/// @param frequency  ascending [Hz].
+/// @param frequency  natural frequencies, ascending [Hz].
 [[nodiscard]] std::vector<FrequencySet> equal_frequencies(const Eigen::VectorXd& frequency);
 
 /// Natural frequencies of a manipulator and their derivatives by design parameters.
@@ -101,7 +101,7 @@ struct FrequencySensitivity {
   /// modes or their derivatives did not converge.
   Outcome outcome;
   Evidence evidence;          ///< residuals of the modes
-  Eigen::VectorXd frequency;  ///< ascending [Hz]
+  Eigen::VectorXd frequency;  ///< natural frequencies, ascending [Hz]
   /// Derivatives of the frequencies, one row per mode and one column per parameter [Hz / unit of
   /// the parameter]. For a set of repeated frequencies, the rows contain directional derivatives:
   /// the ascending eigenvalues of X^T (dK/dp - w^2 dM/dp) X, over 8 pi^2 f, with the modes X of the

@@ -78,8 +78,8 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   return why.str();
 }
 
-/// Returns J_x without units: the rows are divided by the distal lengths, and the rotation column
-/// by the platform radius.
+/// Returns the Jacobian matrix J_x without units: the rows are divided by the distal lengths, and
+/// the rotation column by the platform radius.
 Matrix3d scaled(const Jacobians& j) {
   Matrix3d s = j.parallel;
   s.col(2) /= j.platform_radius;
@@ -118,7 +118,7 @@ void check_geometry(const ManipulatorGeometry& g) {
     if (std::abs(g.working_mode[i]) != 1)
       throw ModelError("the working mode of limb " + n() + " must be 1 or -1");
   }
-  if (platform_radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 lie at P");
+  if (platform_radius(g) == 0) throw ModelError("the platform joints C1, C2 and C3 all lie at P");
 }
 
 Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
@@ -208,8 +208,8 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     result.pose = pose_of(result.pose.vector() + step.cwiseProduct(Vector3d(1, 1, 1 / size)));
   }
   std::ostringstream why;
-  why << "no assembly of the manipulator was found near the start pose: the error of the closed "
-      << "loops is " << result.closure_error << " m";
+  why << "no assembly of the manipulator was found near the start pose: the loop closure "
+      << "error is " << result.closure_error << " m";
   result.outcome = {Status::not_converged, why.str()};
   return result;
 }

@@ -64,8 +64,8 @@ void check_platform_joints(const ManipulatorDesign& design) {
     const std::string C = numbered('C', i);
     if (is_eq25(kind))
       require(joints[0].kind == joints[1].kind && joints[1].kind == joints[2].kind,
-              "Eq. 25 relates the platform's rotation to the rotations of all link ends: choose "
-              "the same joint type for C1, C2 and C3");
+              "joint types eq25-mean and eq25-sum relate the platform's rotation to the rotations "
+              "of all link ends: choose the same joint type for C1, C2 and C3");
     if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
     for (const auto& [joint, problem] :
          {std::pair(PlatformJointKind::welded, "a link cannot be welded to the platform at "),
@@ -75,8 +75,8 @@ void check_platform_joints(const ManipulatorDesign& design) {
                                  ": a node of constant-strain triangles has no rotation; choose "
                                  "hinged, or a rigid platform");
     require(!is_eq25(kind),
-            "Eq. 25 gives the rotation of a rigid platform: a platform of triangles has no single "
-            "rotation; choose hinged, or a rigid platform");
+            "joint types eq25-mean and eq25-sum require a rigid platform: a platform of triangles "
+            "has no single rotation; choose hinged, or a rigid platform");
   }
 }
 
@@ -159,7 +159,7 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   require(material.nu > -1 && material.nu < 0.5,
           "the platform's Poisson's ratio must lie between -1 and 0.5");
   require(!platform.inertia.has_value(),
-          "a printed platform inertia requires a rigid platform: the inertia of triangles follows "
+          "a given platform inertia requires a rigid platform: the inertia of triangles follows "
           "from their mass");
   require(platform.pin_radius >= 0 && std::isfinite(platform.pin_radius),
           "the pin radius must not be negative");

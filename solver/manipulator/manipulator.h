@@ -18,7 +18,7 @@ namespace trammel::solver {
 template <class Kind>
 struct Joint {
   Kind kind{};
-  double stiffness = 0;  ///< > 0 [N m/rad]
+  double stiffness = 0;  ///< stiffness of the torsion spring, > 0 [N m/rad]
 };
 
 /// Type of the actuated joint at A_i, between ground and proximal link. locked: the link is clamped
@@ -46,7 +46,7 @@ struct LinkDesignOf {
   T thickness = T(0);  ///< depth of the section, in the plane of motion [m]
   T width = T(0);      ///< width of the section, perpendicular to the plane of motion [m]
   MaterialOf<T> material;
-  double shear_coefficient = 5.0 / 6.0;  ///< for beam theories with shear deformation
+  double shear_coefficient = 5.0 / 6.0;  ///< kappa, for theories with shear deformation
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass_matrix = MassMatrix::consistent;
   Index elements = 4;
@@ -69,7 +69,7 @@ template <class T>
 struct PlatformDesignOf {
   using Kind = PlatformKind;
   Kind kind = Kind::triangles;
-  T thickness = T(0);  ///< [m]
+  T thickness = T(0);  ///< thickness of the platform [m]
   MaterialOf<T> material;
   /// Number of refinements of a platform of triangles. The mesh without refinement has the
   /// triangles C1 C2 P, C2 C3 P and C3 C1 P. Each refinement splits every triangle into four.
@@ -104,8 +104,8 @@ struct ManipulatorDesign {
 /// Mass properties of the platform, from the uniform triangle C1 C2 C3 or from printed values.
 template <class T>
 struct PlatformMassOf {
-  T mass = T(0);                       ///< [kg]
-  T inertia = T(0);                    ///< about the center of mass [kg m^2]
+  T mass = T(0);                       ///< mass of the platform [kg]
+  T inertia = T(0);                    ///< moment of inertia about the center of mass [kg m^2]
   Vector2d center = Vector2d::Zero();  ///< center of mass relative to P in platform axes [m]
 };
 using PlatformMass = PlatformMassOf<double>;

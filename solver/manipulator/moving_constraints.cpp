@@ -90,8 +90,9 @@ void MovingConstraints::find_eliminating_rows() {
 
 /// Extends the sparsity pattern of the matrix T in u = T q by all entries that are nonzero at any
 /// pose. These entries are found numerically at three arbitrary rotations of members and bodies.
-/// The pattern of C alone would give more entries than necessary: each node of an inextensible
-/// member would depend on all preceding nodes, although their contributions cancel.
+/// The pattern of the constraint matrix C alone would give more entries than necessary: each node
+/// of an inextensible member would depend on all preceding nodes, although their contributions
+/// cancel.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
@@ -120,8 +121,8 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-/// Returns the product of C (order 0) or its first or second time derivative (order 1, 2) and a
-/// matrix with one row per coordinate. Only the rows of C in dependent_rows_ are included.
+/// Returns the constraint matrix C (order 0), or its first or second time derivative (order 1, 2),
+/// times a matrix with one row per coordinate. Only the rows of C in dependent_rows_ are included.
 MatrixXd MovingConstraints::derivative_times(const System& start, const NominalMotion& motion,
                                              int order, const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
@@ -136,8 +137,9 @@ MatrixXd MovingConstraints::derivative_times(const System& start, const NominalM
   return sum;
 }
 
-/// Returns X from C_p X = - C_f. X expresses the eliminated coordinates (rows) by the free
-/// coordinates (columns).
+/// Solves C_p X = - C_f for X, where p and f are the columns of eliminated and free coordinates in
+/// the constraint matrix C. X expresses the eliminated coordinates (rows) by the free coordinates
+/// (columns).
 MatrixXd MovingConstraints::dependent_coordinate_matrix(const System& start,
                                                         const NominalMotion& motion) {
   pivots_.compute(derivative_times(start, motion, 0, select_dependent_));

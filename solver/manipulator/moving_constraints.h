@@ -56,7 +56,8 @@ class MovingConstraints {
   Constraints constraints_;
   bool derivatives_, variable_ = false;
   RowMajorMatrix T_dot_, T_ddot_;
-  // Indices of the rows of C that eliminate a coordinate, except rows of supports.
+  // Indices of the rows of the constraint matrix C that eliminate a coordinate, except rows of
+  // supports.
   std::vector<std::size_t> dependent_rows_;
   // Index in dependent_rows_ for each coordinate u, or -1 for coordinates without such a row.
   std::vector<Index> dependent_row_of_;

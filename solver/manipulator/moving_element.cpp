@@ -90,8 +90,8 @@ MovingElement frame_element(const FrameElement& e, const Member& member) {
   if (!member.axially_flexible) element.c[0] = 0;
   element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                          : frame_mass(e.section, member.theory, member.mass, e.length);
-  // Bars and lumped masses have an isotropic interpolation, which is equal in rotated and world
-  // axes.
+  // Bars and lumped masses have an isotropic interpolation, which is equal in element axes and
+  // world axes.
   if (e.is_bar() || member.mass == MassMatrix::lumped) return element;
   const double phi = shear_ratio(e.section, member.theory, e.length);
   const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;

@@ -34,7 +34,7 @@ struct NominalMotion {
   /// per node.
   std::array<Eigen::MatrixX2d, 3> node;
   std::vector<PartMotion> part;         ///< rotations of members, then plates, then rigid bodies
-  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+  Vector2d gravity = Vector2d::Zero();  ///< acceleration of gravity [m/s^2]
   double load_factor = 1;               ///< factor on the loads of the model
 
   /// Returns the motion of the link or platform with which a model node rotates: the proximal link

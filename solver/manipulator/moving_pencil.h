@@ -72,7 +72,7 @@ template <int rows>
 struct ModeMeasures {
   using Numbers = Eigen::Array<double, rows, 1>;
   Numbers strain;    ///< x^T K x from the deformations [J]
-  Numbers rounding;  ///< effect of rounding x on `strain`, 2 eps sum |d|^T c |B| |u|
+  Numbers rounding;  ///< effect of round-off errors of x on `strain` [J]
   Numbers inertia;   ///< x^T M x [J s^2]
   /// Largest ratio of a row of K x - w^2 M x to the magnitudes of its terms, with the Rayleigh
   /// quotient w^2 = strain / inertia.
@@ -102,7 +102,7 @@ class MovingPencil {
   /// Returns the largest neglected coupling of interior modes within a link (LinkSuperelement).
   [[nodiscard]] double largest_coupling() const { return coupling_; }
 
-  /// Returns the stiffness of the joint coordinates at the current pose.
+  /// Returns the stiffness matrix of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }
   /// Returns the number of eigenvalues of the full model below `shift`, from the signs of the
   /// pivots of K - shift M. This number is the sum of the negative pivots of the link interiors and

@@ -68,7 +68,8 @@ class MovingSystem {
   /// yields the mass-proportional damping forces of the velocity dT/dt q. The matrix is empty
   /// without the gyroscopic effect.
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
-  /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m].
+  /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m]. W is the
+  /// interpolation of an element, and r.. the nominal acceleration.
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
   /// Returns the weight plus the loads of the model [N, N m]. The loads have constant directions in
   /// world axes.
@@ -185,8 +186,9 @@ class PathFollower {
   /// Returns the weight and the load on the platform plus, if active, the inertia load of the
   /// nominal motion [N, N m].
   [[nodiscard]] Eigen::VectorXd load() const;
-  /// Computes M, C + G and K + S (elastodynamics.h), including damping forces of the velocity dT/dt
-  /// q. C is not modified without damping and gyroscopic terms.
+  /// Computes the matrices M, C + G and K + S of acceleration, velocity and displacement
+  /// (elastodynamics.h). They include damping forces of the velocity dT/dt q. C is not modified
+  /// without damping and gyroscopic terms.
   void compute_matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
   /// Solves K q = f. Returns false if K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);

@@ -19,13 +19,13 @@ namespace {
 
 constexpr Index kBlock = 64;  // number of poses that one thread solves in sequence
 constexpr Index kGuard = 3;   // number of iteration vectors in addition to the requested modes
-// Number of joint coordinates above which sparse matrices are faster.
+// Number of joint coordinates above which sparse matrices are faster than dense matrices.
 constexpr Index kLargest = 48;
-// Lower limit of the pivots of the scaled K. At this limit, nine digits are lost.
+// Lower limit of the pivots of the scaled stiffness matrix K. At this limit, nine digits are lost.
 constexpr double kSmallestPivot = 1e-9;
 // Upper limit of neglected mode coupling, whose square is the relative error of eigenvalues.
 constexpr double kMaxCoupling = 1e-7;
-// Upper limit of the relative change of eigenvalues in one step.
+// Upper limit of the relative change of eigenvalues in one step of the subspace iteration.
 constexpr double kTolerance = 1e-11;
 // Backward error of modes below which the iteration ends.
 constexpr double kResidual = 1e-11;

@@ -39,9 +39,9 @@ using Matrix93d = Eigen::Matrix<double, 9, 3>;
 
 /// Mass properties of a rigid link.
 struct RigidLink {
-  double mass = 0;     ///< [kg]
+  double mass = 0;     ///< mass of the link [kg]
   double center = 0;   ///< distance of the center of mass from the first joint of the link [m]
-  double inertia = 0;  ///< about the center of mass [kg m^2]
+  double inertia = 0;  ///< moment of inertia about the center of mass [kg m^2]
 };
 
 /// Mass properties and dimensions of the rigid bodies of the manipulator, and gravity.
@@ -49,12 +49,12 @@ struct RigidManipulator {
   ManipulatorGeometry geometry;
   std::array<RigidLink, 3> proximal, distal;
   PlatformMass platform;
-  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+  Vector2d gravity = Vector2d::Zero();  ///< acceleration of gravity [m/s^2]
 };
 
-/// Returns the rigid bodies of a design. The inertia of a link about its center is the printed
-/// value, or m L^2 / 12 if no value is printed. (In the flexible model, a printed inertia is added
-/// to the inertia of the distributed mass, half at each end.)
+/// Returns the rigid bodies of a design. The inertia of a link about its center is the value in the
+/// design, or m L^2 / 12 if the design contains no value. (In the flexible model, the value in the
+/// design is added to the inertia of the distributed mass, half at each end.)
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
@@ -110,11 +110,11 @@ struct RigidTerms {
   Outcome outcome;
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
   Matrix9d M = Matrix9d::Constant(kNaN);
-  Matrix9d C = M;  ///< sum of J^T diag(inertia) J., so that M. - 2 C is skew-symmetric
+  Matrix9d C = M;  ///< sum of J^T diag(inertia) dJ/dt; dM/dt - 2 C is skew-symmetric
   Vector9d N = q;  ///< gravity, dV/dq of the potential energy V [N, N m]
   Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
-  /// Matrices of the reduced equation of motion. The mass matrix Mh is symmetric positive definite,
-  /// and Mh. - 2 Ch is skew-symmetric.
+  /// Mass matrix Mh and velocity matrix Ch of the equation of motion that is reduced to the
+  /// actuator angles. Mh is symmetric positive definite, and dMh/dt - 2 Ch is skew-symmetric.
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
   Vector3d Nh = Vector3d::Constant(kNaN);
   std::array<BodyTerms, 7> bodies;  ///< proximal links 1-3, distal links 1-3, platform
@@ -126,8 +126,8 @@ struct RigidTerms {
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
-/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch at one pose and velocity
-/// (Varalakshmi & Srinivas 2017, Eq. 4, 5).
+/// Residuals of the symmetry of the mass matrix Mh and the skew symmetry of dMh/dt - 2 Ch, at one
+/// pose and velocity. Source: Varalakshmi & Srinivas (2017), Eq. 4, 5.
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
   /// Relative size |S + S^T| / (|Mh.| + 2 |Ch|) of the symmetric part of S = Mh. - 2 Ch [-]. Mh. is
@@ -136,7 +136,8 @@ struct PropertyResiduals {
   double min_eigenvalue = 0;  ///< smallest eigenvalue of Mh [kg m^2]
 };
 
-/// Computes the residuals of the properties of Mh and Ch at the pose and velocity of `terms`.
+/// Computes the residuals of the symmetry of Mh and the skew symmetry of dMh/dt - 2 Ch at the pose
+/// and velocity of `terms`.
 /// @pre terms.outcome.solved()
 [[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
                                                    const RigidTerms& terms);
@@ -156,7 +157,7 @@ struct InverseDynamics {
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q, q_ddot = q;
   std::array<BodyMotion, 7> bodies;            ///< proximal links 1-3, distal links 1-3, platform
   Vector3d torque = Vector3d::Constant(kNaN);  ///< actuator torques on the proximal links [N m]
-  double kinetic_energy = kNaN;                ///< [J]
+  double kinetic_energy = kNaN;                ///< kinetic energy of all bodies [J]
   double potential_energy = kNaN;              ///< energy in the gravity field, -sum m g . x [J]
   /// Rate of the kinetic energy: the sum of m v . a + J omega alpha over the bodies [W]. The power
   /// balance is

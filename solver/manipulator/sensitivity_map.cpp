@@ -95,9 +95,9 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
   if (!arc.empty()) arcs.push_back(std::move(arc));
 }
 
-/// Finds the point with det J_x = 0 on the line between the positions `from` and `to`. The values
-/// of det J_x at these positions, `a` and `b`, have opposite signs. Returns an empty value if a
-/// limb cannot reach a point of the line.
+/// Finds the parallel singularity, where det J_x = 0, on the line between the positions `from` and
+/// `to`. The values of the determinant of the Jacobian matrix J_x at these positions, `a` and `b`,
+/// have opposite signs. Returns an empty value if a limb cannot reach a point of the line.
 std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi,
                                  const Vector2d& from, const Vector2d& to, double a, double b) {
   std::uintmax_t evaluations = 100;
@@ -155,8 +155,9 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
     for (Index i = 0; i + 1 < grid.columns; ++i) {
-      // Search the four sides of the cell for zeros of det J_x. A cell with a saddle point of det
-      // J_x may have four zeros, which are the ends of two segments.
+      // Search the four sides of the grid cell for zeros of the determinant of the Jacobian matrix
+      // J_x. A cell with a saddle point of det J_x may have four zeros, which are the ends of two
+      // segments.
       const std::array<Index, 4> di = {0, 1, 1, 0};
       const std::array<Index, 4> dj = {0, 0, 1, 1};
       Polyline crossings;

@@ -28,10 +28,10 @@ struct FirstFrequency {
 
 /// Grid of poses x = x0 + i dx, y = y0 + j dy at the fixed orientation phi.
 struct PoseGrid {
-  double x0 = 0, y0 = 0;  ///< [m]
-  double dx = 0, dy = 0;  ///< > 0 [m]
+  double x0 = 0, y0 = 0;  ///< position of the first grid point [m]
+  double dx = 0, dy = 0;  ///< spacings of the grid along x and y, > 0 [m]
   Index columns = 0, rows = 0;
-  double phi = 0;  ///< [rad]
+  double phi = 0;  ///< orientation of the platform [rad]
 
   [[nodiscard]] Pose pose(Index row, Index column) const {
     return {x0 + static_cast<double>(column) * dx, y0 + static_cast<double>(row) * dy, phi};
@@ -48,9 +48,9 @@ struct PoseGrid {
 /// NaN.
 struct SensitivityMap {
   PoseGrid grid;
-  Eigen::MatrixXd frequency;        ///< f_1 [Hz]
+  Eigen::MatrixXd frequency;        ///< first elastic frequency f_1 [Hz]
   Eigen::MatrixXd derivative;       ///< d f_1 / dp [Hz / unit] for an increasing parameter
-  Eigen::MatrixXd serial_distance;  ///< smallest |sin(elbow angle)| [-]
+  Eigen::MatrixXd serial_distance;  ///< smallest |sin(elbow angle)| of the three limbs [-]
   /// Largest residuals of the modes at all poses with a solution.
   Evidence evidence;
   Counters counters;
@@ -69,9 +69,9 @@ using Polyline = std::vector<Vector2d>;  ///< positions (x, y) of the platform p
 [[nodiscard]] std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry,
                                                        double phi, Index points);
 
-/// Returns the parallel singularities in the workspace, on which det J_x = 0. The curve in each
-/// grid cell is approximated by a straight segment, whose two ends on the cell sides are exact.
-/// Only cell sides within reach of all limbs are searched.
+/// Returns the parallel singularities in the workspace, on which the Jacobian matrix J_x has the
+/// determinant 0. The curve in each grid cell is approximated by a straight segment, whose two ends
+/// on the cell sides are exact. Only cell sides within reach of all limbs are searched.
 [[nodiscard]] std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                                            const PoseGrid& grid);
 

@@ -30,8 +30,8 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
           {-w * w * rx, -w * w * ry, 0}};
 }
 
-/// Returns the pose from + s (to - from) with its velocity and acceleration, where ds = ds/dt and
-/// dds = d2s/dt2.
+/// Returns the pose from + s (to - from) with its velocity and acceleration. `ds` and `dds` are the
+/// first and second time derivatives of s.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = to.vector() - from.vector();
   require_path(line.allFinite(), "the start or end pose of the path is not finite");

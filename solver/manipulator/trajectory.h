@@ -18,7 +18,7 @@ class PathError : public ModelError {
 
 /// Pose, velocity and acceleration of the platform at a time.
 struct TrajectoryPoint {
-  double time = 0;  ///< [s]
+  double time = 0;  ///< time of the point [s]
   Pose pose;
   Vector3d velocity = Vector3d::Zero();      ///< (xdot, ydot [m/s], phidot [rad/s])
   Vector3d acceleration = Vector3d::Zero();  ///< (xddot, yddot [m/s^2], phiddot [rad/s^2])
@@ -27,10 +27,10 @@ struct TrajectoryPoint {
 /// Circle x = x_c + r cos(w t), y = y_c + r sin(w t) with constant phi (Varalakshmi & Srinivas
 /// 2017, Eq. 38, with w = 1 rad/s).
 struct Circle {
-  Vector2d center = Vector2d::Zero();  ///< [m]
-  double radius = 0;                   ///< [m]
-  double angular_speed = 1;            ///< w [rad/s]
-  double phi = 0;                      ///< [rad]
+  Vector2d center = Vector2d::Zero();  ///< center of the circle [m]
+  double radius = 0;                   ///< radius of the circle [m]
+  double angular_speed = 1;            ///< angular speed w on the circle [rad/s]
+  double phi = 0;                      ///< constant orientation of the platform [rad]
 };
 
 /// Motion at constant velocity. The platform is at `from` at t = 0 and at `to` at t = duration, and
@@ -50,9 +50,9 @@ struct RestToRest {
 
 /// Given poses, interpolated by the cubic spline with continuous acceleration.
 struct Spline {
-  std::vector<double> times;      ///< strictly ascending [s]
-  Eigen::MatrixX3d pose;          ///< time x (x, y [m], phi [rad])
-  Eigen::MatrixX3d acceleration;  ///< at the given times, computed by `make_spline`
+  std::vector<double> times;      ///< times of the given poses, strictly ascending [s]
+  Eigen::MatrixX3d pose;          ///< one row (x, y [m], phi [rad]) per time
+  Eigen::MatrixX3d acceleration;  ///< accelerations at `times`, from `make_spline`
 };
 
 /// End conditions of a spline. natural: zero acceleration at both ends; at_rest: zero velocity at

@@ -141,7 +141,7 @@ struct PointMass {
 struct Spring {
   std::string name;
   std::array<Index, 2> nodes{-1, -1};
-  Vector3d stiffness = Vector3d::Zero();  ///< along world x, y [N/m] and in rotation [N m/rad]
+  Vector3d stiffness = Vector3d::Zero();  ///< along x, y [N/m]; of rotation [N m/rad]
 };
 
 /// Support that fixes displacements or the rotation of a node to the ground.

@@ -41,8 +41,8 @@ struct EquationOfMotion {
   std::vector<double> breakpoints;
 };
 
-/// M, C and K at the time of the last update, with equal sparsity patterns. C is zero without
-/// damping.
+/// Matrices M (mass), C (damping) and K (stiffness) at the time of the last update, with equal
+/// sparsity patterns. C is zero without damping.
 class EquationMatrices {
  public:
   /// Copies the matrices of an equation of motion.
@@ -107,11 +107,11 @@ struct LoadHistory {
 
 /// Sum of loads, f(t) = pattern * factor(t). The factors are linear between given times.
 struct PiecewiseLinearLoad {
-  /// Load vectors: coordinate x load [SI].
+  /// Load vectors [SI]: one row per coordinate, one column per load.
   Eigen::MatrixXd pattern;
   /// Times at which factors are given, ascending [s].
   std::vector<double> time;
-  /// Load factors: load x time [-].
+  /// Load factors [-]: one row per load, one column per time.
   Eigen::MatrixXd factor;
 
   /// Writes the load vector at time t to `f`.

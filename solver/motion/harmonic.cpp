@@ -23,8 +23,8 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// Solves (K + i w C - w^2 M) x = f with Rayleigh damping. The matrix is (1 + i w stiffness) K + (i
-/// w mass - w^2) M, which is real without damping.
+/// Solves (K + i w C - w^2 M) x = f with Rayleigh damping C = mass * M + stiffness * K. The matrix
+/// is (1 + i w stiffness) K + (i w mass - w^2) M, which is real without damping.
 VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
                        const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
@@ -93,7 +93,7 @@ void HarmonicSolver::compute_modes(Index damped_count) {
     modes_.shape = free.basis;
     if (!mass_orthonormalize(system_, modes_.shape)) {
       outcome_ = {Status::singular,
-                  "a part without mass moves freely: " + describe_mechanism(system_, free)};
+                  "massless coordinate moves freely: " + describe_mechanism(system_, free)};
       return;
     }
     modes_.frequency.setZero(free.count());
@@ -231,11 +231,11 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   };
   double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
-  // Half the bits of a double, because a maximum is flat.
+  // Accuracy of the frequency: half the bits of a double, because a maximum is flat.
   constexpr int kBits = 26;
   std::uintmax_t evaluations = 100;
   // Search in the fraction of the interval instead of the frequency, because the tolerance of the
-  // search has an absolute part.
+  // search has an absolute term.
   const double start = below(width), interval = above(width) - start;
   const auto [share, negative] = boost::math::tools::brent_find_minima(
       [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);

@@ -43,7 +43,7 @@ class HarmonicSolver {
   ///   ratios.
   HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
-  /// Returns the outcome of the computation of the modes. singular: a part without mass moves
+  /// Returns the outcome of the computation of the modes. singular: a massless coordinate moves
   /// freely; not_converged: modes were not found.
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   /// Returns the natural frequencies of the modes with a modal damping ratio, in the order of
@@ -63,8 +63,9 @@ class HarmonicSolver {
   /// Returns the largest magnitudes in a vibration cycle of the response q at a frequency [Hz].
   /// Section forces follow from the strains. They are in equilibrium with inertia forces,
   /// mass-proportional damping and loads, each multiplied by 1 / (1 + i w stiffness). Here,
-  /// `stiffness` is the factor of stiffness-proportional damping. The forces of inextensible
-  /// members are the limit of the forces of extensible members with increasing stiffness.
+  /// `stiffness` is the coefficient of the stiffness matrix in Rayleigh damping. The forces of
+  /// inextensible members are the limit of the forces of extensible members with increasing
+  /// stiffness.
   [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }

@@ -88,7 +88,7 @@ struct Step {
   double size = 0;    ///< size of the step [s]
   double end = 0;     ///< time at the end of the step [s]
   int level = 0;      ///< number of halvings: the size is the largest step / 2^level
-  bool last = false;  ///< true: the step ends at a stop
+  bool last = false;  ///< true: the step ends at a breakpoint, sample time or the end time
 };
 
 /// Result of an attempt to compute a time step.

@@ -21,7 +21,7 @@ struct ModalBasis {
   Outcome outcome;
   /// Angular frequencies, ascending [rad/s]; 0 for rigid modes.
   Eigen::VectorXd omega;
-  /// Mode shapes: coordinate x mode.
+  /// Mode shapes: one row per coordinate, one column per mode.
   Eigen::MatrixXd shape;
 };
 
@@ -50,7 +50,8 @@ struct ModalResponse {
 /// Solutions y of relaxation * y' + y = factor, one for each load. If relaxation > 0, y follows the
 /// factor with a delay. If relaxation = 0, y equals the factor.
 struct DelayedFactors {
-  /// Values y [-] and time derivatives y' [1/s] and y'' [1/s^2]: load x time.
+  /// Values y [-] and time derivatives y' [1/s] and y'' [1/s^2]: one row per load, one column per
+  /// time.
   Eigen::MatrixXd value, rate, acceleration;
 };
 
@@ -65,7 +66,7 @@ struct DelayedFactors {
 ///
 ///   K (x + relaxation x') = part of the load that excites no mode.
 ///
-/// `relaxation` is the factor of stiffness-proportional damping [s]. Without relaxation, massless
+/// `relaxation` is the coefficient of K in the damping matrix [s]. Without relaxation, massless
 /// coordinates follow the load without delay. `basis` contains all modes. q0 contains the
 /// displacements at times.front(); empty: zero.
 void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
@@ -86,7 +87,7 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
 /// All c >= 0 and w >= 0 are supported: rigid motion, underdamping, critical damping and
 /// overdamping. The formula for each of these four cases is free of cancellation.
 struct ImpulseResponse {
-  double dh = 1;  ///< h' [-]
+  double dh = 1;  ///< time derivative h' of the impulse response h [-]
   /// Impulse response h [s].
   double h = 0;
   /// Integral h1 of h [s^2].
@@ -127,9 +128,9 @@ class RegularizedMass {
 };
 
 /// Loads and accelerations that balance the elastic forces K q of a motion with
-/// stiffness-proportional damping. The factor of this damping is t [s]. Loads and inertia forces
-/// balance K (q + t q'), so that q is delayed relative to the loads. For loads or accelerations
-/// z(t), let x(z) be the solution of x + t x' = z. The balance is then
+/// stiffness-proportional damping. The coefficient of K in the damping matrix is t [s]. Loads and
+/// inertia forces balance K (q + t q'), so that q is delayed relative to the loads. For loads or
+/// accelerations z(t), let x(z) be the solution of x + t x' = z. The balance is then
 ///
 ///   K q = x(loads) - M x(accelerations).
 class LateStrain {

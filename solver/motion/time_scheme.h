@@ -50,9 +50,11 @@ struct TimeScheme {
 [[nodiscard]] TimeScheme newmark(double beta, double gamma);
 /// Returns Newmark's trapezoidal rule: order 2, energy-conserving, stable for any step.
 [[nodiscard]] TimeScheme average_acceleration();
-/// Returns Newmark's method with beta = 1/6: order 2, stable for w h < sqrt(12).
+/// Returns Newmark's method with beta = 1/6: order 2, stable for w h < sqrt(12), with the angular
+/// frequency w and the step h.
 [[nodiscard]] TimeScheme linear_acceleration();
-/// Returns Newmark's method with beta = 0: order 2, stable for w h < 2.
+/// Returns Newmark's method with beta = 0: order 2, stable for w h < 2, with the angular frequency
+/// w and the step h.
 [[nodiscard]] TimeScheme central_difference();
 /// Returns the method of Hilber, Hughes & Taylor (1977) with -1/3 <= alpha <= 0. alpha = 0 is the
 /// trapezoidal rule.
@@ -64,13 +66,15 @@ struct TimeScheme {
 /// @throws ModelError  if the radius is outside the range [0, 1].
 [[nodiscard]] TimeScheme generalized_alpha(double radius);
 
-/// Returns the spectral radius of a step with w h = `phase_step`: the largest factor by which a
-/// step multiplies a free undamped motion. The scheme is unstable if this factor exceeds 1.
+/// Returns the spectral radius of a step h at the angular frequency w, with w h = `phase_step`. It
+/// is the largest factor by which a step multiplies a free undamped motion. The scheme is unstable
+/// if this factor exceeds 1.
 [[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step);
 
-/// Returns the largest w h for which an undamped motion remains bounded, or infinity if the scheme
-/// is stable for any step. For Newmark's method, the limit is 1 / sqrt(gamma/2 - beta) (Hughes
-/// 1987, section 9.1). The other methods are stable for any step.
+/// Returns the largest product w h of angular frequency and step for which an undamped motion
+/// remains bounded. The result is infinity if the scheme is stable for any step. For Newmark's
+/// method, the limit is 1 / sqrt(gamma/2 - beta) (Hughes 1987, section 9.1). The other methods are
+/// stable for any step.
 [[nodiscard]] double stability_limit(const TimeScheme& scheme);
 
 // Relations of the time scheme, applied to states with positions q, velocities v and accelerations

@@ -189,7 +189,8 @@ class LinearStepper final : public Stepper {
   const TransientOptions& options_;
   TimeScheme scheme_;
   EquationMatrices matrices_;
-  // Step matrix M + gamma' h C + beta' h^2 K.
+  // Step matrix M + gamma' h C + beta' h^2 K, with the gains gamma' of velocity and beta' of
+  // position (`TimeScheme`).
   SparseMatrix S_;
   std::array<TransientState, 2> states_;
   TransientState *now_ = &states_[0], *next_ = &states_[1];

@@ -26,13 +26,13 @@ struct MotionEnergy {
 /// a and the energies are linear. After samples inside a step, the state at the end of the step is
 /// also output, because the equation of motion is satisfied at this time.
 struct MotionSample {
-  /// Index of the sample; -1: end of a step that is no sample time.
+  /// Index of the sample; -1: the time is the end of a step and no sample time.
   Index index = 0;
   double time = 0;             ///< sample time [s]
   const Eigen::VectorXd& q;    ///< displacements [SI]
   const Eigen::VectorXd& v;    ///< velocities q' [SI/s]
   const Eigen::VectorXd& a;    ///< accelerations q'' [SI/s^2]
-  const MotionEnergy& energy;  ///< [J]
+  const MotionEnergy& energy;  ///< energies, work and dissipation [J]
   /// true: the time is inside a step, so that the equation of motion has an interpolation error.
   bool interpolated = false;
 };

@@ -20,7 +20,7 @@ inline constexpr double kSingularMass = 1e-13;
 /// Computes a quasi-static start. K q = f is solved at the start and at four later times, within a
 /// step and before a jump or kink of the load. The velocity v follows from the one-sided finite
 /// difference of order 4. Then K q = f - C v is solved at the start. Without this solution, the
-/// damping forces C v would start suddenly and excite stiff parts.
+/// damping forces C v would start suddenly and excite vibrations of stiff members.
 /// @returns singular if K is singular.
 [[nodiscard]] Outcome start_quasi_statically(EquationMatrices& matrices,
                                              const TransientOptions& options, Eigen::VectorXd& q,
@@ -39,9 +39,9 @@ inline constexpr double kSingularMass = 1e-13;
 /// this equation. The velocities of damped massless coordinates balance the forces.
 class MasslessCoordinates {
  public:
-  /// Factors the sum of M and a small multiple of C or K. The multiple depends on the step h. It
-  /// changes the motion of masses in a step only by a fraction of 1e-16. The matrices must outlive
-  /// this object.
+  /// Factors the sum of the mass matrix M and a small multiple of the matrix C or K. The multiple
+  /// depends on the step h. It changes the motion of masses in a step only by a fraction of 1e-16.
+  /// The matrices must outlive this object.
   /// @returns false if a massless coordinate has neither stiffness nor damping.
   [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
   /// Moves massless coordinates to equilibrium at the start of a segment between breakpoints, and

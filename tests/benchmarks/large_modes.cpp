@@ -1,6 +1,7 @@
 // Measures processor time and peak memory of computing the first ten modes of two large models.
 // Each model is solved at four sizes, from 1/32 to the full size, in separate processes. The
-// program prints the exponents of the growth of time and memory with the size. It tests nothing.
+// program prints the exponents of the growth of time and memory with the size. It checks no
+// results.
 //   large_modes                  both models, four sizes
 //   large_modes lattice 100000   one model: a square lattice of 100000 frame members
 //   large_modes plate 200000     one model: a square plate of 200000 constant-strain triangles

@@ -1,6 +1,6 @@
 // Measures the number of poses per second for which one core computes natural frequencies along the
 // circular path of Varalakshmi and Srinivas (2017): by solve_pose_modes and by a separate solution
-// for each pose. The program tests nothing.
+// for each pose. The program checks no results.
 //   poses                       1, 4 and 16 elements per link
 //   poses 4 10000               4 elements per link, 10000 poses, solve_pose_modes only
 #include <algorithm>

@@ -211,7 +211,8 @@ struct Mechanism : System {
 
 using Answer = std::map<std::string, std::vector<double>>;
 
-/// Appends the components of a vector along x and y under the names `head` + "x" or "y" + `tail`.
+/// Appends the components of a vector along x and y to the answer, under the names `head` + "x" or
+/// "y" + `tail`.
 void append_xy(Answer& answer, const std::string& head, const std::string& tail, const Vec3& v) {
   answer[head + "x" + tail].push_back(v[0]);
   answer[head + "y" + tail].push_back(v[1]);
@@ -328,7 +329,8 @@ void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector
   m.system.realize(state, SimTK::Stage::Acceleration);
 }
 
-/// Appends angles, rates and accelerations of the links, and the motion of all centers of mass.
+/// Appends angles, angular velocities and angular accelerations of the links, and the motion of all
+/// centers of mass, to the answer.
 void append_motion(const Manipulator& m, const State& state, Answer& answer) {
   for (const auto& [name, body] : m.bodies) {
     const double start = m.mechanism["bodies"][name]["angle_rad"].get<double>();
@@ -351,7 +353,8 @@ void append_motion(const Manipulator& m, const State& state, Answer& answer) {
   answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(state));
 }
 
-/// Appends the torques that cause the accelerations of the proximal links along the path.
+/// Appends to the answer the torques that cause the accelerations of the proximal links along the
+/// path.
 void append_torques(Manipulator& m, State& state, Answer& answer) {
   std::vector<MobilizedBody> active;
   std::vector<SimTK::Vector> accelerations;

@@ -20,7 +20,8 @@
 #include "tests/fuzz/target.h"
 
 // Runs the program's readers and analysis code on invalid or unusual inputs, in a few forked
-// processes with many inputs each. The inputs of the corpus, which once caused errors, run first.
+// processes with many inputs each. The inputs in the folder tests/fuzz/corpus, which once caused
+// errors, run first.
 
 namespace trammel::fuzz {
 namespace {
@@ -38,7 +39,7 @@ struct Options {
   std::vector<fs::path> files;
 };
 
-/// Progress and outcome of the test of an input, in shared memory that outlives the test process.
+/// Progress and outcome of the test of one input, in shared memory that outlives the test process.
 struct Slot {
   enum class Stage { open, reading, computing, done } stage;
   Outcome outcome;
@@ -51,7 +52,7 @@ struct Slot {
   }
 };
 
-/// One slot for each input, in memory that forked processes share until the program ends.
+/// Slots, one for each input, in memory that forked processes share until the program ends.
 struct Board {
   explicit Board(std::size_t count)
       : size(count),
@@ -66,7 +67,8 @@ struct Board {
 
 using Maker = std::function<Input(std::size_t)>;
 
-/// Limits the remaining processor time of this process [s]. The limit of wall time is much larger.
+/// Limits the remaining processor time of this process [s]. Also sets a limit of wall time, which
+/// is much larger.
 void limit_time(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - double(whole)))}};
@@ -79,7 +81,7 @@ void test_batch(Board& board, const Maker& make, std::size_t first, std::size_t 
   const fs::path folder = fs::temp_directory_path() / ("trammel-fuzz-" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::cout.setstate(std::ios::badbit);  // discards the output of commands
-  constexpr double kReading_s = 5;       // time for reading an input
+  constexpr double kReading_s = 5;       // limit for reading an input
   for (std::size_t i = first; i < last; ++i) {
     Slot& slot = board[i];
     const Input input = make(i);
@@ -132,8 +134,8 @@ void test_all(Board& board, const Maker& make, const Options& options) {
   }
 }
 
-/// Prints a table of outcomes by type of input, and a line for each finding. Saves the input of
-/// each finding.
+/// Prints a table of outcomes by type of input, and a line for each finding, that is, each input
+/// that revealed a fault of the program. Saves these inputs.
 /// @returns the number of findings
 std::size_t print_findings(Board& board, const Maker& make, const std::string& what,
                            const Options& options) {
@@ -173,7 +175,7 @@ std::size_t print_findings(Board& board, const Maker& make, const std::string& w
   return findings;
 }
 
-/// Tests the inputs in files with names KIND/NAME.json, as in the corpus.
+/// Tests the inputs in files with names KIND/NAME.json, as in tests/fuzz/corpus.
 std::size_t run_files(const std::vector<fs::path>& files, Options options) {
   const Maker make = [&](std::size_t i) {
     return Input{files[i].parent_path().filename(),

@@ -23,7 +23,8 @@ auto one_of(Random& random, const List& list) {
   return list[below(random, list.size())];
 }
 
-/// Returns a name from a document: a key, a word, a pointer to a value, or a word after a colon.
+/// Returns a text from a JSON document: a key, a text value, a pointer to a value, or the part of a
+/// text after a colon.
 std::string any_word(Random& random, const Json& document) {
   static const Json odd =
       Json::parse(R"(["", " ", "x", "..", "/", "~", "-1", "0", "base", "a:b", ":", "../x", "=1+1",
@@ -49,7 +50,8 @@ std::string any_word(Random& random, const Json& document) {
              : text.substr(0, colon + 1) + (pointer.empty() ? "" : pointer.back());
 }
 
-/// Returns a number at or beyond the limits of a schema rule, or a numerically difficult number.
+/// Returns a number at or beyond the limits of a schema rule, or a numerically difficult number
+/// such as 5e-324.
 Json any_number(Random& random, const Json& rule, const Json& former) {
   static const Json hard = Json::parse(
       R"([0, -0.0, 1, -1, 2, 3, 7, 0.5, 0.99, 1e-9, 1e9, 1e-30, 1e30, 1e100, 1e-300, 1e300, -1e300,

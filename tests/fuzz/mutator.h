@@ -8,15 +8,15 @@
 
 #include "tests/fuzz/schema.h"
 
-/// Makes inputs from the files of the catalogue by one to three changes. The changes follow the
-/// schema, the grammar of JSON, merge patches and the names in the document.
+/// Makes test inputs from the files of the catalogue by one to three changes of each file. The
+/// changes follow the schema, the grammar of JSON, merge patches and the names in the document.
 namespace trammel::fuzz {
 
 struct Input {
   std::string kind;         ///< type of file: case, cost, claims, reference or results
   std::string name;         ///< name of the changed file, without .json
   std::string text, how;    ///< content of the file, and a description of the changes
-  bool is_invalid = false;  ///< known to be invalid, so that accepting it is a finding
+  bool is_invalid = false;  ///< known to be invalid; accepting it is a fault
   std::size_t pick = 0;     ///< selects the variant to compute, modulo the number of variants
 };
 

@@ -97,7 +97,7 @@ void test_results(const fs::path& file, const fs::path& sample) {
   try {
     reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
-    throw InputError(error.what());  // reports throw other error types
+    throw InputError(error.what());  // report functions throw other types
   }
   CommandOptions compare;
   compare.words = {file.string(), sample.string()};
@@ -126,7 +126,7 @@ void test_file(const Input& input, const fs::path& file, const std::function<voi
   test_results(file, sample);
 }
 
-/// Checks that the message of a refusal is one line with a position in the file.
+/// Checks that the error message for a refused input is one line with a position in the file.
 Verdict judge_refusal(const std::string& message) {
   static const std::regex place("(: /|: line |at byte |expected )");
   const bool is_line = std::none_of(message.begin(), message.end(),

@@ -159,7 +159,7 @@ std::vector<std::string> code() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
+BOOST_AUTO_TEST_CASE(folder_includes_only_folders_above_it_in_the_table) {
   BOOST_TEST(rooms().order.size() > 20U);
   std::set<std::string> above;
   for (const std::string& room : rooms().order) {
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(no_include_goes_against_the_arrows) {
+BOOST_AUTO_TEST_CASE(every_include_obeys_the_folder_dependencies) {
   const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   const std::set<std::string> tops = rooms().tops();
   const auto outside = forbidden();
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(no_include_goes_against_the_arrows) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
+BOOST_AUTO_TEST_CASE(no_folder_has_too_many_files) {
   std::map<std::string, std::size_t> files;
   for (const std::string& file : code()) ++files[fs::path(file).parent_path().generic_string()];
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "cases"))
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
     BOOST_TEST(count <= kFilesInRoom, room << " holds " << count << " files");
 }
 
-BOOST_AUTO_TEST_CASE(folder_readme_lists_its_rooms_and_their_arrows) {
+BOOST_AUTO_TEST_CASE(readme_lists_the_subfolders_and_their_dependencies) {
   for (const std::string& top : rooms().tops()) {
     std::map<std::string, std::string> listed;
     for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
@@ -242,7 +242,7 @@ BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
   BOOST_TEST(first.size() > 100U);
 }
 
-BOOST_AUTO_TEST_CASE(tests_mirror_the_rooms) {
+BOOST_AUTO_TEST_CASE(test_folders_mirror_the_code_folders) {
   const std::set<std::string> tops = rooms().tops();
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
     if (!is_code(entry.path())) continue;

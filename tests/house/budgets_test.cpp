@@ -71,7 +71,7 @@ void check(const std::string& what, long count, const nlohmann::json& entry) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(sizes_are_within_limits_that_follow_them) {
+BOOST_AUTO_TEST_CASE(code_sizes_are_within_and_close_to_their_limits) {
   const fs::path root = TRAMMEL_SOURCE_DIR;
   std::ifstream in(root / "tests/house/budgets.json");
   const nlohmann::json budgets = nlohmann::json::parse(in);

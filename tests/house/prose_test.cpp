@@ -144,7 +144,7 @@ std::vector<fs::path> files() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(each_rule_notices_a_violation) {
+BOOST_AUTO_TEST_CASE(each_prose_rule_detects_its_violation) {
   std::string long_text;
   for (int i = 0; i < 31; ++i) join(long_text, "word");
   const std::pair<std::string, std::string> violations[] = {
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(each_rule_notices_a_violation) {
   BOOST_TEST(paragraphs(page).at(0) == "A line of `b`.");
 }
 
-BOOST_AUTO_TEST_CASE(texts_follow_the_rules) {
+BOOST_AUTO_TEST_CASE(all_texts_obey_the_prose_rules) {
   std::set<std::string> used;
   for (const fs::path& file : files()) {
     if (file.extension() == ".json" && file.string().starts_with((kRoot / "tests").string()))

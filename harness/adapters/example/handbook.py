@@ -8,13 +8,13 @@ def solve(case):
                  parts=("materials", "sections", "nodes", "members", "supports", "loads"))
     members, loads = case.members(), list(case.model["loads"].values())
     if len(members) != 1 or len(loads) != 1 or any(members[0].load):
-        raise Cannot("more than one member or load")
+        raise Cannot("models with more than one member or load are not supported")
     m, load = members[0], loads[0]
     held, tip = m.nodes
     (xa, ya), (xb, yb) = case.model["nodes"][held], case.model["nodes"][tip]
     clamped = case.model.get("supports") == {held: ["x", "y", "rotation"]}
     if not clamped or load["node"] != tip or ya != yb or m.beam != "euler-bernoulli":
-        raise Cannot("models other than a slender cantilever along x")
+        raise Cannot("only slender cantilevers along x are supported")
     L, P, M0 = xb - xa, load.get("force_N", [0, 0])[1], load.get("moment_N_m", 0)
     found = {
         "displacement_y_m:" + tip: P * L**3 / (3 * m.E * m.I) + M0 * L**2 / (2 * m.E * m.I),

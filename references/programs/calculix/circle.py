@@ -4,8 +4,8 @@
     circle.py OUT      writes calculix-circle-* into OUT/references.json
 
 Actuators are locked, elbows welded, platform joints hinged. The results at eight points are the displacement of P and the forces of the
-ground. A rigid platform has linear (planar_manipulator.py) and large-displacement results (large_displacement.py). A platform of three
-triangles has large-displacement results. Their uncertainty, due to warping of the sections at the elbows, is measured at each point.
+ground on the links. A rigid platform has linear (planar_manipulator.py) and large-displacement results (large_displacement.py). A platform
+of three triangles has large-displacement results. Their uncertainty is measured at each point. It is due to warping sections at the elbows.
 """
 import math
 import sys

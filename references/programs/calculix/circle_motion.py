@@ -10,10 +10,10 @@ planar_manipulator.py. A hinge is a node that the middles of two end faces share
 STIFF times as stiff, because equations and rigid bodies fail for large rotations in ccx 2.20. The analysis is geometrically exact (NLGEOM)
 with the trapezoidal rule.
 
-*DYNAMIC of ccx 2.20 uses half of the mass of CPS8R, while modes use all of it. A single link whose foot turns lags by 6.126e-6 m, but
-12.243e-6 m is exact. With twice the density it lags by 12.241e-6 m (CPS8, which locks: 12.141e-6 m). Therefore links have twice their
-density here. Initial velocities do not move plane elements; therefore the path starts from rest. At 1 rad/s Newton's iteration ends with
-"solution seems to diverge", because the forces are too small for its criteria.
+*DYNAMIC of ccx 2.20 uses half of the mass of CPS8R, while modes use all of it. The tip of a single link whose fixed end turns lags by 6.126e-6 m,
+but 12.243e-6 m is exact. With twice the density it lags by 12.241e-6 m (CPS8, which locks: 12.141e-6 m). Therefore links have twice their density
+here. Initial velocities do not move plane elements; therefore the path starts from rest. At 1 rad/s Newton's iteration ends with "solution seems to
+diverge", because the forces are too small for its criteria.
 """
 import math
 import sys
@@ -22,7 +22,7 @@ from planar_manipulator import DEFAULT, DEPTH, MATERIAL, Deck, E, geometry, run,
 
 STIFF, ALONG, STEPS = 1e3, 4, (400, 800)
 RADIUS, CENTER = 0.01, (0.25, 0.144)
-POINTS, DURATION = 10, 2.5  # number of output times; duration in half periods
+POINTS, DURATION = 10, 2.5  # number of output times; duration in half periods of the circle
 
 
 def angle(u):
@@ -41,7 +41,7 @@ def places(angle):
 
 
 def build(along):
-    """Returns the lines of the deck, nodes and offsets of the feet, the node P, and for each node the ends of its link."""
+    """Returns the lines of the ccx input, nodes and offsets of the sections at A (feet), the node P, and for each node its link's ends."""
     deck, same, feet, corners, limbs = Deck(), {}, [], [], {}
     for i, (a, b, c) in enumerate(places(0.0)):
         before = len(deck.nodes)

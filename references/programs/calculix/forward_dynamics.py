@@ -65,7 +65,7 @@ def torques(t):
 
 
 def motion(along, steps, angles=None):
-    """Returns the distance of P from the line at POINTS times [m], and the angles of the feet at each step. By default, angles are rigid."""
+    """Returns the distance of P from the line at POINTS times [m], and the link angles at A at each step. Default angles: those of rigid links."""
     lines, feet, p = build(along)
     times = [WATCHED * i / steps for i in range(steps + 1)]
     table = [(t, bodies(pose(t)), torques(t)) for t in times]

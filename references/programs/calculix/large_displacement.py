@@ -23,7 +23,7 @@ def turns_left(nodes, triangle):
 
 
 def build(pose, flexible=False):
-    """Returns the deck, the node P and the nodes of the three feet. A flexible platform has the material and thickness of Table 1."""
+    """Returns the ccx input, the node P and the nodes of the sections at A1, A2, A3. A flexible platform is made as in Table 1."""
     base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
     deck, joints, ends, feet, same = Deck(), [], [], [], {}
     for a, b, c in zip(base, elbows, corners):
@@ -44,7 +44,7 @@ def build(pose, flexible=False):
     plate, width = ((E, DEFAULT["nu"]), DEFAULT["plate_thickness"]) if flexible else ((E * STIFF, 0.0), DEFAULT["width"])
     return deck.mesh(elements) + deck.rest + MATERIAL + [
         *deck.sections, "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}",
-        "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # no contraction across the plane, which ccx hinders
+        "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # no contraction normal to the plane, where ccx hinders it
         "{0},{0},{0},{1},0,0,{2:.12g},{2:.12g}".format(*plate, plate[0] / 2 / (1 + plate[1])), f"{plate[0] / 2 / (1 + plate[1]):.12g}",
         "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=PLATE", f"{width!r}"], p, feet
 

@@ -3,11 +3,11 @@
 
     model_probabilities.py TRAMMEL OUT      writes table-2-models and table-2-models-planar into OUT/references.json
 """
-# model_probabilities.json contains factors. Each combination of factors is a reading of the same prior probability. The file also names the
-# readings in space (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of
-# the unknowns, linear in them: thickness within its printed digits, mesh between one element a link and four, one stiffness of all sprung
-# joints (its logarithm), and the pose, centered or on a circle. Frequencies in the plane are trammel's. A row is any choice of a reading's
-# lowest frequencies.
+# model_probabilities.json contains factors. Each combination of factors is a reading, and all readings have the same prior probability. The file
+# also names the three-dimensional readings (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90,
+# 1995) over cells of the unknowns, in which the logarithms of the frequencies are linear: thickness within its printed digits, mesh between one
+# element a link and four, one stiffness of all sprung joints (its logarithm), and the pose, centered or on a circle. Frequencies in the plane
+# are trammel's. A printed row may contain any choice of SIZE of a reading's CANDIDATES lowest frequencies.
 import concurrent.futures
 import itertools
 import json
@@ -24,7 +24,7 @@ from spatial_manipulator import store
 
 HERE = pathlib.Path(__file__).resolve().parent
 CANDIDATES, SIZE, ANGLES = 7, 6, 4  # SIZE of CANDIDATES frequencies are a row; angles in a third of the circle (symmetry)
-TURNED, THICKNESS, NUMBERS = CANDIDATES, CANDIDATES + 1, CANDIDATES + 2  # indices of further numbers of a cell
+TURNED, THICKNESS, NUMBERS = CANDIDATES, CANDIDATES + 1, CANDIDATES + 2  # indices of the first frequency at a turned pose, and of the thickness
 CHOICES = np.array(list(itertools.combinations(range(CANDIDATES), SIZE)))
 EVEN = 1 / math.sqrt(12)  # standard deviation of a uniform distribution of width 1
 STEP = 0.01  # relative step of the thickness for finite differences
@@ -70,7 +70,7 @@ def log_frequencies(trammel, model):
 
 
 def node(trammel, model, inputs):
-    """Returns the numbers at the center and on the circle, and the changes of the numbers at the center with thickness and mesh."""
+    """Returns logarithms of frequencies and thickness at the center and on the circle, and their changes with thickness and mesh."""
     links, pose, radius = model["manipulator"]["links"], inputs["pose"], inputs["circle_radius_m"]
     circle = {"center_m": [pose["x_m"], pose["y_m"]], "radius_m": radius, "points": 13, "step_s": math.pi / 6, "phi_rad": pose["phi_rad"]}
     turned = {**pose, "phi_rad": pose["phi_rad"] + inputs["turned_rad"]}
@@ -89,7 +89,7 @@ def node(trammel, model, inputs):
 
 
 class Reading:
-    """Prediction of a reading in each cell of its unknowns: numbers, and their derivatives times standard deviations."""
+    """Prediction of a reading in each cell of its unknowns: logarithms of numbers, and their derivatives times standard deviations."""
 
     def __init__(self, title, weights, numbers, spread, noise=0.0):
         self.title, self.weights, self.numbers, self.spread, self.noise = title, np.array(weights), np.array(numbers), np.array(spread), noise
@@ -204,7 +204,7 @@ def table(readings, priors, name, discrepancy):
         return np.linalg.solve(cell[5].T, np.linalg.solve(cell[5], right))
 
     def bits(number, resolution):
-        """Returns by how many bits one more number with this relative standard deviation lowers the entropy of the classes."""
+        """Returns by how many bits measuring one more number with this relative standard deviation lowers the entropy of the classes."""
         terms = []
         for cell in cells:
             p, r, c, mean, spread, _ = cell

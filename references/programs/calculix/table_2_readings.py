@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Frequencies of interpretations ("readings") of the paper's model, for comparison with the rows of Table 2, by CalculiX.
 
-    table_2_readings.py OUT [NAME ...]    computes all (or these) on two meshes and writes table-2-reading-NAME into OUT/references.json
+    table_2_readings.py OUT [NAME ...]    computes all (or the named) readings on two meshes, writes table-2-reading-NAME into OUT/references.json
 """
 import math
 import sys

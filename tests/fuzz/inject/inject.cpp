@@ -4,7 +4,7 @@
 //   disk:N     files accept only N bytes, as on a full disk.
 //   read:S     signal S arrives when a case is read first.
 //   compute:S  signal S arrives when the first run starts.
-//   result:S   signal S arrives before results.json is renamed to its name.
+//   result:S   signal S arrives before the temporary file is renamed to results.json.
 //   draw:S     signal S arrives when gnuplot is started.
 //   clock:0    each value of the calendar clock is an hour earlier than the previous value.
 //   count:0    prints the numbers of calls and bytes to standard error.

@@ -25,7 +25,7 @@ Json on_a_circle(Json json, int points) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(fine_mesh_is_drawn_by_its_corners) {
+BOOST_AUTO_TEST_CASE(fine_six_node_mesh_is_drawn_with_corner_nodes_only) {
   Json json = testing::quarter_ring();
   const AnalysisResult coarse = result_of(json);
   BOOST_REQUIRE(coarse.drawing.has_value());
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(fine_mesh_is_drawn_by_its_corners) {
   BOOST_TEST(fine.drawing->shapes.at(0).displacement.size() == 17U * 33);
 }
 
-BOOST_AUTO_TEST_CASE(section_without_outermost_fiber_has_no_stress) {
+BOOST_AUTO_TEST_CASE(section_without_fiber_distance_has_no_stress_quantity) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
              boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_named_run) {
+BOOST_AUTO_TEST_CASE(study_errors_refer_to_the_run_named_in_relative_to) {
   Json json = testing::cantilever();
   json["analysis"]["study"] = Json::parse(R"({
     "analysis": {"modes": {"count": 1}}, "parameter": "elements", "values": [1, 2, 4],
@@ -117,7 +117,7 @@ Document against_table_2(const Folder& folder, const char* id) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(absent_reference_next_to_a_case_is_hashed) {
+BOOST_AUTO_TEST_CASE(absent_reference_file_next_to_a_case_has_empty_hash) {
   const Folder folder;
   const Document document = against_table_2(folder, "cantilever");
   const References references;
@@ -128,14 +128,14 @@ BOOST_AUTO_TEST_CASE(absent_reference_next_to_a_case_is_hashed) {
   BOOST_TEST(beside->second == "");
 }
 
-BOOST_AUTO_TEST_CASE(case_named_references_is_no_reference) {
+BOOST_AUTO_TEST_CASE(case_file_references_json_is_not_read_as_references) {
   const Folder folder;
   const Document document = against_table_2(folder, "references");
   const References references;
   BOOST_TEST(references.get(JsonView(document)["checks"]["c"]["reference"]).unit == "Hz");
 }
 
-BOOST_AUTO_TEST_CASE(overflowing_number_is_not_solved) {
+BOOST_AUTO_TEST_CASE(overflowing_compliance_has_status_not_converged) {
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {0, 1e155};
   BOOST_TEST(result_of(json).outcome.solved());
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(intended_nan_does_not_prevent_the_status_solved) {
   BOOST_TEST(record.first_nonfinite_quantity() == "b:P");
 }
 
-BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
+BOOST_AUTO_TEST_CASE(computation_beyond_memory_is_refused_with_key_at_fault) {
   const auto refusal = [](const Json& json) {
     return input_error_message([&] { require_memory(document_of(json), 1e8); });
   };
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
   BOOST_TEST(contains(refusal(map), "/analysis/sensitivity-map/columns: "));
 }
 
-BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
+BOOST_AUTO_TEST_CASE(every_catalogue_case_requires_less_than_2_GB) {
   const Catalogue catalogue;
   for (const auto& file : catalogue.runnable_files()) {
     const Case given = load_case(file, catalogue);

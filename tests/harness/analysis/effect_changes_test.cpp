@@ -7,7 +7,7 @@ BOOST_AUTO_TEST_SUITE(effect_changes)
 
 using namespace trammel::harness;
 
-BOOST_AUTO_TEST_CASE(lost_mode_is_an_infinite_change) {
+BOOST_AUTO_TEST_CASE(missing_quantity_or_mode_is_an_infinite_change) {
   Quantities whole;
   whole["frequency_Hz"] = {{1, 2}, {}};
   whole["displacement_y_m:B"] = {{0.1}, {}};

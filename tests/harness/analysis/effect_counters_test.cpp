@@ -39,7 +39,8 @@ void check_counters(const Document& document, const References& references) {
 }  // namespace
 
 /// Tests that the number of evaluations of each inactive mechanical effect is 0. Each variant of
-/// each case that supports effects runs with its own effects, and with the required effects only.
+/// each case that supports effects runs with the effects of its case file, and with the required
+/// effects only.
 BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
   const References references;
   std::size_t runs = 0;

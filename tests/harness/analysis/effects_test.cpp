@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(geometric_stiffening_by_name_is_second_order_theory) {
   BOOST_TEST(tip(result_of(json)) == stated);
 }
 
-BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
+BOOST_AUTO_TEST_CASE(selected_effects_have_dimensionless_number_and_reason) {
   Json json = timoshenko_cantilever();
   json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
   const AnalysisResult slender = result_of(json);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
 
 /// Compares the dimensionless numbers of the mechanical effects of a member with their definitions,
 /// such as EI k^2 / EA for axial flexibility.
-BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia,
+BOOST_AUTO_TEST_CASE(dimensionless_effect_numbers_equal_their_definitions,
                      *boost::unit_test::tolerance(1e-12)) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
@@ -113,7 +113,8 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia,
 }
 
 /// Among the effects that increase the computing time, the selection must contain exactly those
-/// listed for the scene. It may contain any effect that does not increase the computing time.
+/// listed for the scene (case with candidate effects). It may contain any effect that does not
+/// increase the computing time.
 BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
@@ -164,7 +165,7 @@ BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
 
 /// The importance of large displacement for compressed columns was once estimated from linear
 /// theory, without the factor 1 / (1 - P / Pcr) for an axial load P near the buckling load Pcr.
-BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
+BOOST_AUTO_TEST_CASE(effect_selection_near_buckling_is_within_tolerance) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
     if (variant.find("whole") != std::string::npos) continue;
@@ -195,7 +196,7 @@ BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
 
 /// A sudden start of a manipulator also excites vibrations of its stiff platform. The platform has
 /// only 3e-6 of the strain energy. If the platform is rigid, the largest force is wrong by 28 %.
-BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
+BOOST_AUTO_TEST_CASE(sudden_start_keeps_flexibility_of_stiff_platform) {
   Json json = patched(load_named_case("scene-slow-circle"), "base").value();
   json.erase("extends");
   json["analysis"]["elastodynamics"]["initial_state"] = "at-rest";
@@ -209,7 +210,7 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
 /// Omitting inertia changes the results by at most about r^2 + 2 zeta r. The ratio of path
 /// frequency to first natural frequency is r, and zeta is the damping ratio. With this bound, the
 /// selection of effects requires no computed motion.
-BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
+BOOST_AUTO_TEST_CASE(slow_circle_omits_inertia_by_frequency_ratio_alone) {
   Document slower = patched(load_named_case("scene-slow-circle"), "base");
   slower.apply_patch("test", "",
                      {{"model", {{"trajectory", {{"circle", {{"angular_speed_rad_s", 0.3}}}}}}}});
@@ -220,7 +221,7 @@ BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
 /// Along a path, the geometrically exact theory requires fixed time steps and driven actuators.
 /// With error control, large displacement therefore cannot be selected, although its effect exceeds
 /// the tolerance.
-BOOST_AUTO_TEST_CASE(motion_beyond_every_theory_is_reported) {
+BOOST_AUTO_TEST_CASE(motion_beyond_all_selectable_theories_is_reported) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");
   document.apply_patch(
       "test", "", {{"analysis", {{"elastodynamics", {{"error_control", {{"relative", 1e-6}}}}}}}});
@@ -229,7 +230,7 @@ BOOST_AUTO_TEST_CASE(motion_beyond_every_theory_is_reported) {
   BOOST_TEST(study.choice.is_beyond_linear_theory());
 }
 
-BOOST_AUTO_TEST_CASE(change_that_is_not_a_number_is_kept) {
+BOOST_AUTO_TEST_CASE(nan_in_one_result_is_an_infinite_change) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
   const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};

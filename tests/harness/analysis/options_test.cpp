@@ -14,7 +14,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Pendulum motion. Some tests give it more time steps than the option `steps` permits.
+/// Motion of a pendulum. In some tests it requires more time steps than the option `steps` permits.
 const char* const pendulum = R"({"id": "pendulum", "title": "t",
   "model": {"nodes": {"O": [0, 0], "B": [-1, 0]}, "rigid_bodies": {"rod": {"reference": "O", "nodes": ["B"]}},
             "point_masses": {"bob": {"node": "B", "mass_kg": 1}}, "supports": {"O": ["x", "y"]},
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
   BOOST_TEST(number(found, "not_finite") == 0);
 }
 
-BOOST_AUTO_TEST_CASE(reason_without_expected_words_is_counted) {
+BOOST_AUTO_TEST_CASE(failure_without_required_words_counts_as_unexplained) {
   const Json set = {{"steps", 3}};
   const Json said = {{"large-motion", {{"set", set}, {"reason_contains", {"step", "time"}}}}};
   BOOST_TEST(number(tried(said), "not_converged") == 2);
@@ -64,13 +64,13 @@ BOOST_AUTO_TEST_CASE(refused_option_values_do_not_stop_the_others) {
   BOOST_TEST(number(found, "solved") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(different_endings_are_an_infinite_difference) {
+BOOST_AUTO_TEST_CASE(different_run_status_is_an_infinite_difference) {
   const Quantities found =
       tried({{"large-motion", {{"vary", {{"steps", {3, 100000}}}}, {"same_results", true}}}});
   BOOST_TEST(number(found, "result_difference_over_roundoff") > 1e300);
 }
 
-BOOST_AUTO_TEST_CASE(stress_suite_has_every_item) {
+BOOST_AUTO_TEST_CASE(every_item_of_the_stress_suite_has_a_case) {
   std::set<int> items;
   for (const Case& one : Catalogue().load({"hard"})) {
     const Json& document = one.document.value();

@@ -19,7 +19,7 @@ using namespace trammel::harness;
 namespace {
 
 struct Memory {
-  double estimated = 0, most = 0;  ///< [B]
+  double estimated = 0, most = 0;  ///< estimated and measured peak memory [B]
 };
 
 /// Measures the memory of an analysis in a separate process, which excludes memory of other

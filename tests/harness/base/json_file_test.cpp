@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(file_is_written_completely_or_not_at_all) {
   BOOST_CHECK_THROW(write_file(folder.path() / "none" / "a.json", "[1]"), InputError);
 }
 
-BOOST_AUTO_TEST_CASE(failed_write_leaves_no_part_and_links_are_replaced) {
+BOOST_AUTO_TEST_CASE(failed_write_leaves_no_file_and_symlink_is_replaced) {
   const testing::Folder folder;
   std::filesystem::create_directories(folder.path() / "here/in-the-way");
   BOOST_CHECK_THROW(write_file(folder.path() / "here", "[1]"), InputError);

@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(failed_process_does_not_affect_the_others) {
 BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
-  const int descriptor = dup(0);  // the lowest free descriptor: for signals, then two for a pipe
+  const int descriptor = dup(0);  // lowest free: for signals; the next two: for a pipe
   close(descriptor);
   const auto lowest = static_cast<rlim_t>(descriptor);
   const rlimit one_pipe{lowest + 3, before.rlim_max}, no_pipe{lowest + 2, before.rlim_max};
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(signal_stops_running_and_waiting_tasks) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(process_knows_its_memory_and_waiting_is_reported) {
+BOOST_AUTO_TEST_CASE(process_has_memory_limit_and_waiting_calls_callback) {
   int waited = 0;
   const auto outcomes =
       run_all({{[] { return std::to_string(memory_limit_bytes()); }, 10}, {loop, 2}},

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
 BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
-  options.shortest_s = 1;  // an empty task reaches the maximum number of runs first
+  options.shortest_s = 1;  // an empty task first reaches the maximum number of runs
   const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
   BOOST_TEST(timings[0].runs_each == 1000);
   BOOST_TEST(calls == 7 * 1000 + 2);
@@ -68,7 +68,8 @@ BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   BOOST_TEST(ratio.median == 3);
   BOOST_TEST(ratio.low == 0.1);
   BOOST_TEST(ratio.high == 8);
-  // With 15 repeats, the interval of the time ratio excludes the two outermost values on each side.
+  // With 15 repeats, the confidence interval of the time ratio excludes the two smallest and the
+  // two largest values.
   for (int i = 0; i < 8; ++i) baseline.cpu_s.push_back(1), timing.cpu_s.push_back(3);
   BOOST_TEST(time_ratio(timing.cpu_s, baseline.cpu_s).low == 3);
   BOOST_TEST(time_ratio(timing.cpu_s, baseline.cpu_s).high == 3);

@@ -226,7 +226,7 @@ BOOST_DATA_TEST_CASE(refused_call_prints_one_line, kRefusals, refusal) {
   BOOST_TEST(contains(outcome.err, refusal.message), outcome.err);
 }
 
-BOOST_DATA_TEST_CASE(call_prints_its_results, kCalls, call) {
+BOOST_DATA_TEST_CASE(command_line_prints_the_expected_text, kCalls, call) {
   const Outcome outcome = run(files(), call.arguments);
   BOOST_TEST(outcome.status == call.status, outcome.err);
   const bool to_err = std::string(call.stream) == "err";
@@ -236,12 +236,12 @@ BOOST_DATA_TEST_CASE(call_prints_its_results, kCalls, call) {
     BOOST_TEST(contains(to_err ? outcome.err : outcome.out, part), part << " in " << outcome.out);
 }
 
-BOOST_AUTO_TEST_CASE(measures_of_round_off_are_not_printed) {
+BOOST_AUTO_TEST_CASE(roundoff_quantities_are_not_printed) {
   for (const char* words : {"run frequencies.json", "converge swept.json"})
     BOOST_TEST(!contains(run(files(), words).out, "roundoff"), words);
 }
 
-BOOST_AUTO_TEST_CASE(own_robot_is_run_with_a_reference_next_to_it) {
+BOOST_AUTO_TEST_CASE(user_manipulator_is_run_with_references_in_its_folder) {
   const Folder folder;
   Json json = testing::manipulator();
   Json& robot = json["model"]["manipulator"];
@@ -298,7 +298,7 @@ BOOST_AUTO_TEST_CASE(second_call_into_one_folder_is_refused) {
   BOOST_TEST((left == std::set<std::string>{"junit.xml", "results.json", "store"}));
 }
 
-BOOST_AUTO_TEST_CASE(lock_that_is_a_pipe_and_linked_store_are_refused) {
+BOOST_AUTO_TEST_CASE(lock_as_named_pipe_and_store_as_symlink_are_refused) {
   const Folder folder;
   (void)folder.write(judged(101));
   const auto message = [&](const std::string& before) {
@@ -411,7 +411,7 @@ BOOST_AUTO_TEST_CASE(data_folder_is_set_by_the_environment) {
   BOOST_TEST(run(files(), "run holds.json", "TRAMMEL_HOME='" TRAMMEL_SOURCE_DIR "'").status == 0);
 }
 
-BOOST_AUTO_TEST_CASE(variants_and_results_are_compared_in_any_number) {
+BOOST_AUTO_TEST_CASE(any_number_of_variants_or_results_is_compared) {
   const Folder folder;
   Json json = judged(101);
   json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
@@ -441,7 +441,7 @@ BOOST_AUTO_TEST_CASE(variants_and_results_are_compared_in_any_number) {
   BOOST_TEST(run(folder, "compare a b").status == 0);
 }
 
-BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
+BOOST_AUTO_TEST_CASE(comparison_page_is_one_self_contained_html_file) {
   const Folder folder;
   Json json = judged(101);
   json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
@@ -463,8 +463,7 @@ BOOST_AUTO_TEST_CASE(case_is_certified_over_rounding_modes) {
   const Folder folder;
   const Outcome outcome = run(folder, "certify cantilever-tip-force");
   BOOST_TEST(outcome.status == 0, outcome.err);
-  for (const char* words :
-       {"upwards", "downwards", "toward zero", "No verdict differs, and none is missing."})
+  for (const char* words : {"upwards", "downwards", "toward zero", "No verdict differs between"})
     BOOST_TEST(contains(outcome.out, words), outcome.out);
   const Json found = Json::parse(run(folder, "certify cantilever-tip-force --json").out);
   for (const Json& row : found.at("configurations"))
@@ -502,7 +501,7 @@ BOOST_AUTO_TEST_CASE(second_report_computes_only_what_has_changed) {
   BOOST_TEST(!contains(run(folder, "report cantilever.json --out mine").out, "stored"));
 }
 
-BOOST_AUTO_TEST_CASE(ending_of_a_singular_run_is_printed_once) {
+BOOST_AUTO_TEST_CASE(reason_of_a_singular_run_is_printed_once) {
   const Folder folder;
   Json json = judged(101);
   json["model"].erase("supports");
@@ -543,7 +542,7 @@ void apply_block(std::string block, Json& example, const Folder& folder) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(examples_of_the_documents_run) {
+BOOST_AUTO_TEST_CASE(commands_and_cases_in_documents_run_without_error) {
   static const std::regex command(R"re(^    (?:\./)?trammel (.*?)(?: +#.*)?$)re");
   const std::set<std::string> too_long = {"report", "test",
                                           "run -L verification --out results/catalogue"};

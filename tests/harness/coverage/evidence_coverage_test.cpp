@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_not_independent_evidence) {
   BOOST_TEST(evidence(check, feature).empty());
 }
 
-BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
+BOOST_AUTO_TEST_CASE(study_error_is_evidence_of_the_kind_of_its_reference) {
   const Json study = Json::parse(R"({
     "analysis": {"statics": {}}, "pointers": ["/model/elements"], "values": [1, 2],
     "quantities": {"displacement_y_m:B": {"reference": "truth"},
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(self_consistency_alone_is_not_verification) {
   BOOST_TEST(row.is_verified());
 }
 
-BOOST_AUTO_TEST_CASE(series_with_a_failed_check_is_not_counted) {
+BOOST_AUTO_TEST_CASE(quantity_with_a_failed_check_is_not_counted_as_judged) {
   results::Results made;
   results::Run run;
   run.case_id = "a";

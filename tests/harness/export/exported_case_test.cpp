@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
 
 // The variant "whole" has no checks, but a check of the base variant compares with the variant
 // "whole". The export of "whole" once had no quantities, so that the check could not be judged.
-BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
+BOOST_AUTO_TEST_CASE(variant_exports_quantities_compared_by_other_variants) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];
   BOOST_REQUIRE(asked.size() == 1);
@@ -184,14 +184,14 @@ BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' belongs to an edge"));
 }
 
-BOOST_AUTO_TEST_CASE(network_with_its_own_samples_is_exported_without_model) {
+BOOST_AUTO_TEST_CASE(grnn_with_given_samples_is_exported_without_a_model) {
   const ExportTwin twin = export_twin(load_named_case("grnn-example"), {});
   BOOST_TEST(twin.refused == "");
   BOOST_TEST(twin.difference == 0);
   BOOST_TEST(!twin.json.contains("model"));
 }
 
-BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
+BOOST_AUTO_TEST_CASE(manipulator_path_is_exported_as_bodies_joints_and_table) {
   const ExportTwin twin = export_twin(load_named_case("circle-inverse-dynamics"), {});
   BOOST_TEST(twin.difference == 0, twin.worst);
   const Json& mechanism = twin.json["export"]["mechanism"];
@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
 
 // The tip displacement of the cantilever follows from the exported matrices alone. The free
 // coordinates are K^-1 f, and T maps them to the displacements u.
-BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
+BOOST_AUTO_TEST_CASE(exported_matrices_reproduce_the_displacement) {
   const Folder folder;
   const Document document = document_of(cantilever());
   write_system_matrices(document, exported_scene(document), folder.path() / "m");

@@ -90,7 +90,7 @@ bool is_alive(const fs::path& pid_file) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(hostile_adapter_affects_its_own_row_only) {
+BOOST_AUTO_TEST_CASE(misbehaving_adapter_program_fails_only_its_own_run) {
   const Folder folder;
   std::string names;
   for (const auto& item : kHostile) {
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(hostile_adapter_affects_its_own_row_only) {
   BOOST_TEST(contains(read_text(out / "junit.xml"), "skipped"));
 }
 
-BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
+BOOST_AUTO_TEST_CASE(missing_answer_exits_with_0_and_wrong_command_with_2) {
   const Folder folder;
   for (const char* id : {"cannot", "gives-nothing", "well-behaved"}) (void)folder.write(judged(id));
   const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
   BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(not_exported_differs_from_cannot) {
+BOOST_AUTO_TEST_CASE(grades_not_exported_and_cannot_are_distinct) {
   const Folder folder;
   (void)folder.write(judged("cannot"));
   const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(several_codes_are_compared_in_one_report) {
   BOOST_TEST(run(folder, "report trammel-results/results.json is-off.json") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
+BOOST_AUTO_TEST_CASE(order_check_expects_the_order_declared_by_adapter) {
   const Folder folder;
   const std::string adapter = (kSource / "tests/harness/grade/hostile.py").string();
   const auto verdict = [&](const std::string& orders) {
@@ -250,7 +250,7 @@ std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
   return off;
 }
 
-BOOST_AUTO_TEST_CASE(each_fault_of_a_solver_is_caught_by_named_cases) {
+BOOST_AUTO_TEST_CASE(each_documented_solver_fault_fails_the_listed_cases) {
   const Folder folder;
   const auto faults = documented_faults();
   BOOST_TEST(faults.size() == 10U);

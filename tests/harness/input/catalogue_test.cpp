@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(catalogue)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(two_rooms_cannot_have_cases_with_one_name) {
+BOOST_AUTO_TEST_CASE(equal_case_names_in_two_folders_are_refused) {
   const testing::Folder folder;
   const auto first = folder.write("beams/cantilever.json", "{}");
   BOOST_TEST(input_error_message([&] { (void)Catalogue(folder.path()); }).empty());

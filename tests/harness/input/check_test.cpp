@@ -35,7 +35,7 @@ std::string fault(const Json& expect) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
+BOOST_AUTO_TEST_CASE(expected_values_share_the_half_width_within) {
   const Check each =
       check_of(expecting({{"agrees", "r"}, {"relative", {0.038, -0.106}}, {"within", 0.005}}));
   BOOST_TEST((each.measure == Measure::relative));
@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
   BOOST_TEST(one.windows[0].high == 2.5);
 }
 
-BOOST_AUTO_TEST_CASE(variant_states_its_values_and_reasons) {
+BOOST_AUTO_TEST_CASE(variant_overrides_expected_value_and_reason) {
   Json json = expecting({{"known_discrepancy", "Reason."}, {"absolute", 2}, {"within", 0.5}});
   json["variants"]["soft"]["checks"]["c"]["expect"]["absolute"] = 1;
   const Check base = check_of(json);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(half_width_requires_stated_values) {
   BOOST_TEST(contains(fault(with(with(agrees, "relative", 1), "relative_between", {-1, 1})),
                       "/checks/c/expect: expected exactly one of the keys 'relative'"));
   BOOST_TEST(contains(fault({{"known_discrepancy", "r"}, {"relative", 0.1}, {"within", 0.2}}),
-                      "/checks/c/expect/relative: expected a window without 0"));
+                      "/checks/c/expect/relative: expected a range without 0"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_and_round_off_are_no_divergence) {
   BOOST_TEST(std::isfinite(*noise.gci[3]));
 }
 
-BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
+BOOST_AUTO_TEST_CASE(second_error_term_limits_the_asymptotic_range) {
   Convergence series = power_law(4, 0.1, 0.5, 8);
   series.exact = 10;
   const Convergence found = analyze_convergence(series);

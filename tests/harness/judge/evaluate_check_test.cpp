@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(relative_difference_of_negative_values_keeps_its_sign) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(verdicts_that_fail_the_gate) {
+BOOST_AUTO_TEST_CASE(fail_error_and_not_run_count_as_failures) {
   for (const Verdict closed : {Verdict::fail, Verdict::error, Verdict::not_run})
     BOOST_TEST(counts_as_failure(closed), to_string(closed));
   for (const Verdict open : {Verdict::pass, Verdict::recorded, Verdict::not_given})
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(not_finite_number_is_an_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(value_that_is_no_number_is_named) {
+BOOST_AUTO_TEST_CASE(nan_message_names_computed_or_expected_value) {
   Bench computed;
   computed.set(1, not_a_number);
   BOOST_TEST(computed.verdict() == "error");
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(bound_judges_the_computed_value_only) {
   BOOST_TEST(bench.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(lost_agreement_fails) {
+BOOST_AUTO_TEST_CASE(value_outside_the_recorded_agreement_fails) {
   Bench bench = validation("agrees", {-0.01, 0.01});
   BOOST_TEST(bench.verdict() == "pass");
   for (const double value : {9.8, 10.2}) {
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
   BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
-  for (const double value : {10.0, 13.0}) {  // reference value; larger difference than recorded
+  for (const double value : {10.0, 13.0}) {  // equal to the reference; too different
     bench.set(0, value);
     BOOST_TEST(bench.verdict() == "fail");
     BOOST_TEST(contains(bench.message, "the difference left its recorded range"));
@@ -392,7 +392,7 @@ BOOST_AUTO_TEST_CASE(negative_control_passes_if_the_fault_is_found) {
       contains(bench.message, "expected 'fail' of entry 1 with 'is outside of' (got 'pass'"));
 }
 
-BOOST_AUTO_TEST_CASE(code_printing_four_digits_is_judged_by_four) {
+BOOST_AUTO_TEST_CASE(solver_printing_four_digits_is_judged_to_four_digits) {
   Bench bench;
   bench.check["tolerance"]["relative"] = 1e-6;
   bench.set(1, 20.004);

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
   BOOST_TEST(u.standard[1] == std::sqrt(0.04 / 3 + 4e-4 / 45), boost::test_tools::tolerance(1e-2));
 }
 
-BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
+BOOST_AUTO_TEST_CASE(each_stratum_of_each_input_is_sampled_once) {
   std::vector<std::set<int>> visited(2);
   const auto record = [&](const Values& d) -> std::optional<Values> {
     for (std::size_t k = 0; k < 2; ++k)

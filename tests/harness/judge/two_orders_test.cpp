@@ -25,7 +25,7 @@ Convergence series_of(const std::function<double(double)>& value, std::size_t le
   return series;
 }
 
-/// Returns the series 10 (1 + a h^4 + b h^2).
+/// Returns the series of values 10 (1 + a h^4 + b h^2) for successively halved h.
 Convergence mixed(double a, double b, std::size_t levels) {
   Convergence series =
       series_of([=](double h) { return 10 * (1 + a * std::pow(h, 4) + b * h * h); }, levels);
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(mixture_of_two_orders_is_fitted_and_extrapolated) {
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(found.in_asymptotic_range[k]);
 }
 
-BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
+BOOST_AUTO_TEST_CASE(gci_of_two_known_orders_holds_with_factor_1_25) {
   Convergence series = mixed(0.5, 2e-3, 8);
   series.lower_order = 2;
   const Convergence found = analyze_convergence(series);
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
+BOOST_AUTO_TEST_CASE(gci_with_unknown_second_order_has_factor_3) {
   const Convergence found = analyze_convergence(mixed(0.5, 2e-3, 8));
   bool large = false;
   for (std::size_t k = 2; k < 8; ++k) {
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
   for (std::size_t k = 2; k < 7; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
 }
 
-BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
+BOOST_AUTO_TEST_CASE(gci_of_two_levels_has_theoretical_order_and_factor_3) {
   Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h * h); }, 2);
   series.theory_order = 2;
   const Convergence found = analyze_convergence(series);

@@ -37,7 +37,7 @@ results::UncertaintyCoverage summarize(const std::vector<Convergence>& all) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
+BOOST_AUTO_TEST_CASE(gci_of_an_exact_power_law_is_1_25_times_the_error) {
   const results::UncertaintyCoverage summary =
       summarize(std::vector<Convergence>(30, synthetic_study(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no GCI
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
   BOOST_TEST(summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(bands_that_miss_often_fail) {
+BOOST_AUTO_TEST_CASE(error_bands_exceeded_by_too_many_errors_fail) {
   std::vector<Convergence> all(30, synthetic_study(8, 1));
   for (std::size_t i = 0; i < 3; ++i) all[i] = synthetic_study(8, 0.5);
   const results::UncertaintyCoverage summary = summarize(all);
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
   BOOST_TEST(summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
+BOOST_AUTO_TEST_CASE(coverage_of_levels_at_roundoff_floor_only_fails) {
   Convergence found = synthetic_study(8, 1);
   found.at_roundoff_floor.assign(8, true);  // excludes every level from the ratio of GCI to error
   const results::UncertaintyCoverage summary = summarize(std::vector<Convergence>(30, found));

@@ -30,7 +30,7 @@ std::vector<Comparison> judged(std::vector<Comparison> row) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(uncertainties_add_in_quadrature_and_count_twice) {
+BOOST_AUTO_TEST_CASE(half_width_is_twice_root_sum_square_of_uncertainties) {
   const auto v = judged({comparison(17.0, 10.0, 2.0, 3.0, 6.0)}).front();
   BOOST_TEST(*v.difference == 7.0);
   BOOST_TEST(*v.u_val == 7.0);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(difference_beyond_uncertainty_is_reported_as_a_range) {
   BOOST_TEST(v.conclusion == "model error between 1.5 and 2.5 Hz, too low");
 }
 
-BOOST_AUTO_TEST_CASE(reference_that_splits_a_pair_is_inconsistent) {
+BOOST_AUTO_TEST_CASE(unequal_references_of_equal_values_are_inconsistent) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.0, 15.115, 0, 0.1, 3e-4);
   const auto row = judged({first, second});
@@ -57,13 +57,13 @@ BOOST_AUTO_TEST_CASE(reference_that_splits_a_pair_is_inconsistent) {
   BOOST_TEST(*row[0].difference == 14.0 - 12.768);
 }
 
-BOOST_AUTO_TEST_CASE(inconsistency_does_not_excuse_a_model_beyond_it) {
+BOOST_AUTO_TEST_CASE(value_outside_inconsistent_references_is_model_error) {
   const Comparison first = comparison(20.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(20.0, 15.115, 0, 0.1, 3e-4);
   for (const auto& v : judged({first, second})) BOOST_TEST(v.verdict == kModelError);
 }
 
-BOOST_AUTO_TEST_CASE(values_differing_beyond_round_off_are_no_pair) {
+BOOST_AUTO_TEST_CASE(unequal_computed_values_are_not_treated_as_a_pair) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.1, 15.115, 0, 0.1, 3e-4);
   for (const auto& v : judged({first, second})) BOOST_TEST(v.verdict == kModelError);

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(node_where_only_hinges_meet_has_no_rotation) {
   BOOST_TEST(!result.quantities.contains("rotation_rad:S"));
 }
 
-BOOST_AUTO_TEST_CASE(drive_replaces_the_lock_of_an_actuator) {
+BOOST_AUTO_TEST_CASE(prescribed_rotation_releases_the_locked_actuator) {
   Json json = hinged_manipulator();
   json["model"]["manipulator"]["material"]["E_Pa"] = 6.9e14;  // the link is nearly rigid
   const Json law = {{"rest_to_rest", {{"travel", 0.05}, {"duration_s", 0.1}}}};
@@ -96,7 +96,7 @@ Json pushed(const Json& times, const Json& factors) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(steps_end_only_where_a_load_bends) {
+BOOST_AUTO_TEST_CASE(time_steps_end_only_at_slope_changes_of_the_load) {
   Json times = Json::array(), constant = Json::array(), zigzag = Json::array();
   for (int i = 0; i <= 2000; ++i) {
     times.push_back(i / 2000.0);
@@ -151,7 +151,7 @@ Json crank() {
 }  // namespace
 
 // The kinematics of the crank require v_y = -3/4 v_x at B and v_x = 0 at C.
-BOOST_AUTO_TEST_CASE(suggested_velocity_is_admissible) {
+BOOST_AUTO_TEST_CASE(suggested_initial_velocity_obeys_the_constraints) {
   Json json = crank();
   Json& given = json["analysis"]["large-motion"]["initial_velocities"];
   given["B"] = {{"x_m_per_s", 1}, {"y_m_per_s", 0.9}};

@@ -15,7 +15,8 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Returns a quarter circle of 1 m from A to B about the origin, clamped at A, with a force at B.
+/// Returns a beam along a quarter circle of radius 1 m about the origin from A to B, clamped at A,
+/// with a force at B.
 Json quarter(Index elements) {
   Json json = testing::cantilever();
   json["model"]["nodes"] = {{"A", {1, 0}}, {"B", {0, 1}}};

@@ -64,7 +64,7 @@ void check_words(const std::string& pointer) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(fields_are_those_of_the_schema) {
+BOOST_AUTO_TEST_CASE(fields_read_from_json_equal_the_schema_keys) {
   check_fields<solver::Material>("material");
   check_fields<solver::Member>("member",
                                {"end_section", "taper", "arc_center_m", "restrained_motions"});
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(fields_are_those_of_the_schema) {
   check_fields<solver::NodalLoad>("load", {"edge", "traction_Pa", "normal_Pa"});
 }
 
-BOOST_AUTO_TEST_CASE(words_are_those_of_the_schema) {
+BOOST_AUTO_TEST_CASE(enumerator_names_equal_the_schema_words) {
   check_words<solver::BeamTheory>("/beam");
   check_words<solver::MassMatrix>("/mass_matrix");
   check_words<Axial>("/axial");

@@ -24,7 +24,7 @@ BOOST_AUTO_TEST_CASE(run_with_a_failed_check_does_not_agree) {
   BOOST_TEST(to_string(grade_of(run_with({Verdict::pass, Verdict::fail}))) == "off");
 }
 
-BOOST_AUTO_TEST_CASE(off_broken_crashed_and_late_runs_are_failures) {
+BOOST_AUTO_TEST_CASE(grades_off_broken_crashed_and_timed_out_are_failures) {
   for (const Grade grade : {Grade::off, Grade::broken, Grade::crashed, Grade::timed_out})
     BOOST_TEST(is_failure(grade), to_string(grade));
   for (const Grade grade : {Grade::agrees, Grade::cannot, Grade::not_exported, Grade::not_given,

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(different_status_and_missing_run_are_reported) {
   BOOST_TEST(flips_of(none) == "none beam:base solved missing; ");
 }
 
-BOOST_AUTO_TEST_CASE(run_failing_everywhere_is_reported_for_each) {
+BOOST_AUTO_TEST_CASE(run_failing_in_each_configuration_is_reported_for_each) {
   Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
   for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
   BOOST_TEST(flips_of(certify({here, there})) ==

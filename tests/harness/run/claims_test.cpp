@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(changed_verdict_of_a_claim_is_detected) {
   BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(one_changed_verdict_changes_the_full_set) {
+BOOST_AUTO_TEST_CASE(claim_set_with_a_changed_verdict_is_not_as_recorded) {
   Json json = claims_of({{"r", ratio}}, "confirmed").value();
   json["claims"]["2"] = json["claims"]["1"];
   json["claims"]["2"]["expected"] = "contradicted";
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(relative_metric_refers_to_the_expected_value) {
   BOOST_TEST((verdict(document, {bend(3, 3)}) == "contradicted"));
 }
 
-BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing) {
+BOOST_AUTO_TEST_CASE(claim_with_contradictory_alternatives_is_undecided) {
   Json second = ratio;
   second["check"] = "tip-y";
   const Json both = {{"x", ratio}, {"y", second}};
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing) {
                  .entries.size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(entries_required_together_confirm_together_only) {
+BOOST_AUTO_TEST_CASE(claim_requiring_all_entries_fails_if_one_entry_fails) {
   Json jointly = ratio;
   jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(entries_required_together_confirm_together_only) {
   BOOST_TEST((verdict(document, {bend(3, 1)}) == "contradicted"));
 }
 
-BOOST_AUTO_TEST_CASE(otherwise_confirms_all_that_does_not_contradict) {
+BOOST_AUTO_TEST_CASE(confirms_otherwise_accepts_all_not_contradicting) {
   Json away = ratio;
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(otherwise_confirms_all_that_does_not_contradict) {
   BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(steps_of_a_quantity_measure_its_growth) {
+BOOST_AUTO_TEST_CASE(growth_of_a_quantity_is_measured_between_entries) {
   const results::Claims found =
       evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];

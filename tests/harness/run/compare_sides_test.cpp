@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(change_on_any_of_three_sides_is_counted) {
   BOOST_TEST(harness::compare_sides({a, c, b}, false).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
+BOOST_AUTO_TEST_CASE(difference_within_roundoff_of_refinement_is_no_change) {
   Side a = side("a", {{"mass_kg", {1.0, 2.0}}}), b = side("b", {{"mass_kg", {1.0, 2 + 1e-8}}});
   results::Convergence study;
   study.quantity = "mass_kg";
@@ -70,7 +70,8 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   study.roundoff = {1e-9, 1e-8};
   b.results.runs[0].convergence = {study};
   BOOST_TEST(compared(a, b).changed == 0U);
-  // A relative change above 1e-6 is not round-off, even if the study estimates 1e-3 as round-off.
+  // A relative change above 1e-6 is not round-off, even if the convergence study of the run
+  // estimates 1e-3 as round-off.
   b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
   BOOST_TEST(compared(a, b).changed == 1U);
   b.results.runs[0].convergence = {study};
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(zero_has_no_percent_and_its_round_off_is_no_change) {
+BOOST_AUTO_TEST_CASE(round_off_of_a_zero_is_no_change_and_has_no_percent) {
   const Side a = side("a", {{"force_N:A", {1e-13}}, {"force_N:B", {100.0}}});
   const Side b = side("b", {{"force_N:A", {-3e-12}}, {"force_N:B", {101.0}}});
   const results::SideComparison found = compared(a, b);
@@ -132,7 +133,7 @@ BOOST_AUTO_TEST_CASE(missing_run_and_other_verdict_are_changes) {
   b.results.runs[0].variant = "other";
   const results::SideComparison found = compared(a, b);
   BOOST_TEST(found.changed == 2U);
-  BOOST_TEST(found.runs.at(0).remarks.at(0) == "not in b");
+  BOOST_TEST(found.runs.at(0).remarks.at(0) == "missing from b");
 }
 
 namespace {
@@ -152,7 +153,7 @@ Side with_errors(const std::string& label, double error, const std::vector<doubl
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(sides_state_their_errors_against_references) {
+BOOST_AUTO_TEST_CASE(compared_results_have_errors_against_references) {
   const auto found =
       compared(with_errors("coarse", 0.3, {1, 1, 1.2}), with_errors("fine", 0.1, {1, 1, 50}));
   BOOST_TEST(*found.sides[0].median_error == 0.3, boost::test_tools::tolerance(1e-9));

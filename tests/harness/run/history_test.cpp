@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(small_steps_in_one_direction_are_a_drift) {
                  .drifts.empty());
 }
 
-BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly) {
+BOOST_AUTO_TEST_CASE(work_counters_are_compared_exactly) {
   const Folder folder;
   results::Results without = call("two", 10, results::Verdict::pass, 11);
   without.runs[0].checks.clear();

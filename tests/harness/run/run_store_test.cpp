@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(name_of_a_run_depends_on_its_inputs) {
+BOOST_AUTO_TEST_CASE(file_name_of_a_stored_run_depends_on_its_inputs) {
   const Folder folder;
   Json json = cases(folder, 100);
   const auto name = [&] { return run_file_name(testing::read(folder, json).document, true); };
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(name_of_a_run_depends_on_its_inputs) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(changed_tried_case_changes_the_name_of_options) {
+BOOST_AUTO_TEST_CASE(changed_case_renames_stored_run_of_its_options) {
   const Folder folder;
   Json tried = testing::cantilever();
   tried["id"] = "tried";

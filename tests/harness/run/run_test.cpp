@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(order_of_a_sweep_with_a_missing_level_is_an_error) {
                              [](const auto&) { return nullptr; }};
   const CheckResult judged = evaluate_order_check(checks.at(0), context).at(0);
   BOOST_TEST((judged.verdict == Verdict::error));
-  BOOST_TEST(judged.message == "a refined level has no finite value");
+  BOOST_TEST(judged.message == "a refinement level has no finite value");
 }
 
 BOOST_AUTO_TEST_CASE(results_do_not_depend_on_jobs_and_obey_their_schema) {

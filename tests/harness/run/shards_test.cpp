@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
     if (done_before == 0) done_before = done;
   };
   BOOST_TEST(results_text(run_cases(all, References(), options), all) == whole);
-  BOOST_TEST(done_before == 4U);  // the first one reported ends with an error
+  BOOST_TEST(done_before == 4U);  // the first reported variant ends with an error
 }
 
 BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {

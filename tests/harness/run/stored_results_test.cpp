@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   BOOST_TEST(a.dump() == b.dump());
 }
 
-BOOST_AUTO_TEST_CASE(inputs_name_the_extended_case_that_states_them) {
+BOOST_AUTO_TEST_CASE(inherited_inputs_name_the_case_file_that_sets_them) {
   const Case given = harness::load_named_case("exact-statics");
   const Json json = to_json(collect_results({}, {given}, References(), ""));
   const Json& inputs = json["cases"]["exact-statics"]["inputs"];
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(inputs_name_the_extended_case_that_states_them) {
   BOOST_TEST(!inputs["loads/P/node"].contains("source"));
 }
 
-BOOST_AUTO_TEST_CASE(summary_holds_scalars_verdicts_and_each_reason_once) {
+BOOST_AUTO_TEST_CASE(results_file_has_scalars_and_each_reason_once) {
   const Folder folder;
   const Json json = read_json(write_results(computed(folder), folder.path() / "out"));
   BOOST_TEST(json["store"] == "store");
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
   BOOST_TEST(load_results(file).missing == "");
 }
 
-BOOST_AUTO_TEST_CASE(index_beyond_the_reasons_is_refused) {
+BOOST_AUTO_TEST_CASE(reason_index_beyond_the_list_is_refused) {
   const Folder folder;
   const fs::path file = write_results(computed(folder), folder.path() / "out");
   Json json = read_json(file);

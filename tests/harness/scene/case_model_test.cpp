@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_planar_model_reaches_the_model) {
   BOOST_TEST((built.gravity == Vector2d(0, -9.81)));
 }
 
-BOOST_AUTO_TEST_CASE(corner_of_two_supported_edges_is_held_once) {
+BOOST_AUTO_TEST_CASE(corner_of_two_supported_edges_has_one_support) {
   Json json = testing::quarter_ring();
   json["model"]["supports"] = {{"inner", {"x", "y"}}, {"bottom", {"y"}}, {"A", {"y"}}};
   const Model model = build_model(case_model_of(json), 0);

@@ -20,7 +20,7 @@ bool warns(const AnalysisResult& result, const std::string& text) {
       result.warnings, [&text](const Warning& warning) { return contains(warning.text(), text); });
 }
 
-AnalysisResult of_cantilever(double force_x, double force_y, const char* analysis) {
+AnalysisResult analyze_cantilever(double force_x, double force_y, const char* analysis) {
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {force_x, force_y};
   json["analysis"] = {{analysis, Json::object()}};
@@ -33,26 +33,26 @@ AnalysisResult of_cantilever(double force_x, double force_y, const char* analysi
 
 // Tests the warning about large rotations in linear statics. The rotation of the cantilever's tip
 // is F L^2 / (2 E I), or 2.4e-6 rad per newton.
-BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
-  BOOST_TEST(of_cantilever(0, 40000, "statics").warnings.empty());
-  const AnalysisResult beyond = of_cantilever(0, 50000, "statics");
+BOOST_AUTO_TEST_CASE(large_rotation_in_linear_statics_has_a_warning) {
+  BOOST_TEST(analyze_cantilever(0, 40000, "statics").warnings.empty());
+  const AnalysisResult beyond = analyze_cantilever(0, 50000, "statics");
   BOOST_REQUIRE(beyond.warnings.size() == 1U);
   BOOST_TEST(contains(beyond.warnings[0].text(), "the largest rotation is 0.12 rad: linear theory"),
              beyond.warnings[0].text());
-  BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
+  BOOST_TEST(analyze_cantilever(0, 50000, "large-statics").warnings.empty());
 }
 
 // Tests the warning about large strains of a member. A strip of 0.2 m was once compressed to an end
 // position of -64 m without a warning. The extension N / EA and the shear V / EA of the cantilever
 // in this test are 1e-9 per newton.
-BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
+BOOST_AUTO_TEST_CASE(large_extension_of_a_member_has_a_warning) {
   for (const char* analysis : {"statics", "large-statics"}) {
-    BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
-    const AnalysisResult beyond = of_cantilever(3e8, 0, analysis);
+    BOOST_TEST(analyze_cantilever(9e7, 0, analysis).warnings.empty());
+    const AnalysisResult beyond = analyze_cantilever(3e8, 0, analysis);
     BOOST_REQUIRE(beyond.warnings.size() == 1U);
     BOOST_TEST(contains(beyond.warnings[0].text(), "the largest extension of a member is 0.3: "),
                beyond.warnings[0].text());
-    const AnalysisResult across = of_cantilever(0, 3e12, analysis);
+    const AnalysisResult across = analyze_cantilever(0, 3e12, analysis);
     BOOST_REQUIRE(!across.warnings.empty());
     BOOST_TEST(contains(across.warnings.back().text(), "the largest shear of a member is "));
   }
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
 
 BOOST_AUTO_TEST_CASE(loads_without_compression_warn_in_buckling) {
   for (const auto& [along, warned] : {std::pair(1.0, true), std::pair(-1.0, false)}) {
-    const AnalysisResult result = of_cantilever(along, 0, "buckling");
+    const AnalysisResult result = analyze_cantilever(along, 0, "buckling");
     BOOST_TEST(result.warnings.size() == (warned ? 1U : 0U));
     if (warned)
       BOOST_TEST(contains(result.warnings[0].text(), "K + factor K_G is positive definite"));
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
 namespace {
 
 /// Returns statics along a path: the centered platform rotates from 0 to an angle in 40 steps.
-AnalysisResult turning_to(double angle, const Json& analysis = {{"statics", Json::object()}}) {
+AnalysisResult turn_platform(double angle, const Json& analysis = {{"statics", Json::object()}}) {
   Json json = Json::parse(R"({
     "id": "across", "title": "Across a singularity", "extends": "table-1.json",
     "model": {
@@ -196,7 +196,7 @@ AnalysisResult turning_to(double angle, const Json& analysis = {{"statics", Json
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
-  const AnalysisResult result = turning_to(0.9);
+  const AnalysisResult result = turn_platform(0.9);
   BOOST_REQUIRE(result.warnings.size() == 2U);
   double largest = 0;
   for (const double angle : testing::values(result, "rotation_rad:P"))
@@ -208,11 +208,11 @@ BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
 // Tests the warning about a parallel singularity of the manipulator. The lines of the distal links
 // intersect in P if the platform angle is 0.669 rad, which is at 0.744 of the path.
 BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
-  const AnalysisResult result = turning_to(0.9);
+  const AnalysisResult result = turn_platform(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),
                       "of the first point after a parallel singularity is 0.75 s"),
              result.warnings.back().text());
-  BOOST_TEST(!warns(turning_to(0.6), "singularity"));
+  BOOST_TEST(!warns(turn_platform(0.6), "singularity"));
 }
 
 BOOST_AUTO_TEST_CASE(every_analysis_warns_of_a_crossed_singularity) {
@@ -222,8 +222,8 @@ BOOST_AUTO_TEST_CASE(every_analysis_warns_of_a_crossed_singularity) {
                       {"quantities", {{"displacement_x_m:P", Json::object()}}}};
   for (const Json& analysis : {Json{{"kinematics", Json::object()}}, Json{{"study", study}},
                                Json{{"grnn", {{"train", 20}, {"sigma", 0.1}}}}}) {
-    BOOST_TEST(warns(turning_to(0.9, analysis), crossed), analysis.dump());
-    BOOST_TEST(!warns(turning_to(0.6, analysis), "singularity"), analysis.dump());
+    BOOST_TEST(warns(turn_platform(0.9, analysis), crossed), analysis.dump());
+    BOOST_TEST(!warns(turn_platform(0.6, analysis), "singularity"), analysis.dump());
   }
 }
 

@@ -11,7 +11,7 @@ using namespace trammel::harness;
 
 /// A frequency is proportional to the square root of all stiffnesses, and inversely proportional to
 /// the square root of all masses and inertias.
-BOOST_AUTO_TEST_CASE(derivatives_add_up_as_dimensions_require) {
+BOOST_AUTO_TEST_CASE(sums_of_derivatives_agree_with_dimensional_analysis) {
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
   design.platform.mass = 0.12;

@@ -43,7 +43,7 @@ std::string fault_of(const Json& json, SweepExtent sweeping = SweepExtent::full)
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(settings_are_the_patched_case) {
+BOOST_AUTO_TEST_CASE(settings_are_the_case_with_the_patches_of_curves) {
   const CostStudy study = load(study_json());
   BOOST_TEST_REQUIRE(study.settings.size() == 6U);
   BOOST_TEST(study.settings[0].title == "consistent mass, 1 element");
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   BOOST_TEST(contains(fault_of(spoiled), "/curves/lumped: expected 1 quantities"));
 }
 
-BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
+BOOST_AUTO_TEST_CASE(observed_values_apply_index_addend_and_statistic) {
   const Quantities quantities = {{"pose_x_m", {{1, 2, 3}, {}}},
                                  {"displacement_x_m:P", {{0.1, 0.2, -0.6}, {}}}};
   ObservedQuantity one;
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(sweeps_of_a_case_are_a_cost_study) {
                       "expected 'sweeps'"));
 }
 
-BOOST_AUTO_TEST_CASE(sweep_is_measured_by_exact_values_of_checks) {
+BOOST_AUTO_TEST_CASE(sweep_errors_refer_to_exact_values_of_checks) {
   const References references;
   const Case given = load_named_case("beam-cantilever");
   const CostStudy study = cost_study_of_sweeps(given, kBaseVariant, {}, references);

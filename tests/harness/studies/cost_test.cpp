@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(counters_measure_work_and_are_reproducible) {
   BOOST_TEST(a.settings[2].counters.front().second == 2 * a.settings[1].counters.front().second);
 }
 
-BOOST_AUTO_TEST_CASE(noisy_setting_is_kept_as_a_tie) {
+BOOST_AUTO_TEST_CASE(setting_with_scattered_times_is_kept_as_a_tie) {
   results::CostStudy study = measured(study_json());
   for (std::size_t i : {0U, 1U, 2U}) study.settings[i].time->cpu_s.assign(7, 1.0 + 10.0 * i);
   study.settings[1].time->cpu_s = {11, 1, 11, 300, 11, 11, 11};
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
   BOOST_TEST((measured(json).settings[4].status == "diverged"));
 }
 
-BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
+BOOST_AUTO_TEST_CASE(setting_without_error_other_than_reference_is_measured) {
   Json json = study_json();
   // The setting differs from the reference solution in its title only. Their frequencies are equal.
   json["curves"]["more"] = {{"title", "another name"},

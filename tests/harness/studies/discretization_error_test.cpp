@@ -75,7 +75,7 @@ Json vibrating_cantilever() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(errors_of_modes_hold_the_converged_values) {
+BOOST_AUTO_TEST_CASE(error_bands_of_frequencies_contain_converged_values) {
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
   for (const Json& json : {own_manipulator(), with_links(own_manipulator(), 1),
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_straight_member_gives_no_warning) {
   BOOST_TEST(error_warnings(estimated(json).errors, 0.01).empty());
 }
 
-BOOST_AUTO_TEST_CASE(odd_mesh_has_a_finer_companion) {
+BOOST_AUTO_TEST_CASE(error_of_an_odd_mesh_uses_twice_the_elements) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   json["model"]["elements"] = 3;
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
         boost::test_tools::tolerance(1e-6));
 }
 
-BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
+BOOST_AUTO_TEST_CASE(error_bands_of_time_steps_contain_the_exact_motion) {
   Json exact = vibrating_cantilever();
   exact["analysis"]["transient"]["method"] = "modal-superposition";
   exact["model"]["elements"] = 16;
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(search_reaches_its_accuracy) {
+BOOST_AUTO_TEST_CASE(accuracy_search_reaches_the_requested_error) {
   const References references;
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 64)).values("frequency_Hz");
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
   BOOST_TEST(contains(refusal(rigid, "time_s"), "no mesh and no time step"));
 }
 
-BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
+BOOST_AUTO_TEST_CASE(default_element_count_depends_on_analysis_and_member) {
   Json json = cantilever();
   json["model"].erase("elements");
   BOOST_TEST(element_count_of(document_of(json), "AB") == 1);
@@ -305,7 +305,7 @@ BOOST_AUTO_TEST_CASE(catalogue_has_no_numbers_in_a_wrong_unit) {
         BOOST_TEST(warning.empty(), given.id() << ":" << variant << ": " << warning);
 }
 
-BOOST_AUTO_TEST_CASE(entries_in_a_check_suggest_index) {
+BOOST_AUTO_TEST_CASE(unknown_check_key_entries_suggests_the_key_index) {
   Json json = cantilever();
   json["checks"] = {{"tip",
                      {{"quantity", "displacement_y_m:B"},

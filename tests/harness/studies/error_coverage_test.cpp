@@ -75,8 +75,9 @@ double work_of(const Document& document, const References& references) {
   return estimated_work(analyze(document, references, {}).counters, unknowns);
 }
 
-/// Returns the counted work of each coarser companion (mesh or step of twice the size) relative to
-/// the work of the case. The result is empty if the companion is finer instead.
+/// Returns the counted work of the coarser computations with which an error estimate compares the
+/// case (mesh or step of twice the size). Work is relative to that of the case. The result is empty
+/// if the error estimate uses a finer computation instead.
 std::vector<double> cost_of(const Document& document, const AnalysisResult& own,
                             const References& references) {
   std::vector<double> costs;
@@ -90,8 +91,9 @@ std::vector<double> cost_of(const Document& document, const AnalysisResult& own,
   return costs;
 }
 
-/// Returns the values of a quantity on another level at the samples of the case; NaN if the level
-/// has no such sample. Frequencies are matched by mode shape or mode number, whichever is nearer.
+/// Returns the values of a quantity on another level (mesh and step) at the samples of the case;
+/// NaN if the level has no such sample. Frequencies are matched by mode shape or by mode number,
+/// whichever yields the nearer frequency.
 std::vector<double> values_on(const AnalysisResult& level, const AnalysisResult& own,
                               const std::string& name) {
   const std::vector<double>& given = own.quantities.at(name).values;
@@ -184,7 +186,7 @@ std::string levels_of(const Case& given) {
 struct Tally {
   int values = 0, estimated = 0, covered = 0, missed = 0, short_by_ten = 0;
   std::vector<double> ratios;
-  std::map<std::size_t, std::vector<double>> costs;  // key: number of companions, one or two
+  std::map<std::size_t, std::vector<double>> costs;  // key: number of coarser computations
 
   [[nodiscard]] double coverage() const {
     return covered + missed > 0 ? static_cast<double>(covered) / (covered + missed) : 1;

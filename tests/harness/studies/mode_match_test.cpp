@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(repeated_modes_are_matched_as_a_set) {
   BOOST_TEST(matches[0].overlap == 1, boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(separated_modes_match_their_former_set) {
+BOOST_AUTO_TEST_CASE(modes_of_a_split_pair_match_the_repeated_pair) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 3);
   const SampledModes pair = modes({1, 1, 3}, I), parted = modes({1, 1.1, 3}, I);
   const auto apart = match_modes(parted, pair);

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(conclusion_names_unreached_accuracies) {
   BOOST_TEST(contains(describe_pareto_front(points, titles, 0), "at most 1e-6 as well"));
 }
 
-BOOST_AUTO_TEST_CASE(fronts_are_compared_by_their_times) {
+BOOST_AUTO_TEST_CASE(difference_of_pareto_fronts_is_relative_time_change) {
   BOOST_TEST(compare_pareto_fronts(sample(), sample()) == 0);
   std::vector<CostPoint> slower = sample();
   slower[3].time *= 1.2;

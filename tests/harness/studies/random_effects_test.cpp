@@ -51,7 +51,8 @@ struct Scene {
   }
 };
 
-/// Scenes for which a former version of the program selected wrong effects.
+/// Scenes (cases with candidate effects) for which a former version of the program selected wrong
+/// effects.
 const Scene kHardScenes[] = {
     {1, 231, "second-order theory near a singularity was off by 14 %"},
     {3, 188, "the resonance of a coarse platform is elsewhere"},
@@ -75,7 +76,8 @@ BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::ma
 }
 
 /// The selection of effects may compute the motion of a coarse model only if the full motion has
-/// large displacements. The full motion then factors a tangent in each step, and is more expensive.
+/// large displacements. The full motion then factors a tangent stiffness matrix in each step, and
+/// is more expensive.
 BOOST_AUTO_TEST_CASE(selecting_effects_costs_less_than_it_saves) {
   for (const int number : {29, 89, 169}) {
     const EffectStudy study = study_of(random_scenes(2, std::to_string(number)).front());
@@ -83,7 +85,7 @@ BOOST_AUTO_TEST_CASE(selecting_effects_costs_less_than_it_saves) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(selection_holds_and_is_minimal_on_random_scenes) {
+BOOST_AUTO_TEST_CASE(selection_is_accurate_and_minimal_for_random_scenes) {
   int minimal = 0, solved = 0, within = 0;
   const std::vector<Document> scenes = random_scenes(1, "$(seq 0 99)");
   BOOST_REQUIRE(scenes.size() == 100U);

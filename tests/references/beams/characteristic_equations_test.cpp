@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(clamped_corner_has_the_known_exponent) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(one_column_of_the_elastica_table_has_its_length) {
+BOOST_AUTO_TEST_CASE(elastica_output_column_is_scaled_by_the_length) {
   const auto all = run("elastica-tip-force", R"({"load_parameter": [1, 10]})");
   check_equal(run("elastica-tip-force",
                   R"({"load_parameter": [1, 10], "output": "shortening", "length_m": 3})"),

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(text_that_is_no_object_of_unique_keys_is_not_split) {
     BOOST_TEST(!json_members(text).has_value(), text);
 }
 
-BOOST_AUTO_TEST_CASE(keys_of_blocks_are_found_in_formatted_text) {
+BOOST_AUTO_TEST_CASE(top_level_keys_are_found_in_formatted_json) {
   const auto keys = top_level_keys(
       "{\n  \"$schema\": \"s\",\n  \"common\": {\n    \"x\": {\n    },\n    \"y\": {}\n  },\n"
       "  \"first\": {\n  },\n  \"second\": {}\n}\n");

@@ -33,7 +33,7 @@ Json double_cross() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(count_steps_by_multiplicity_at_each_frequency) {
+BOOST_AUTO_TEST_CASE(frequency_count_rises_by_the_multiplicity) {
   const Frame frame = frame_from_arguments(Arguments({{"model", double_cross()}}, ""));
   const auto found = frame_frequencies(frame, 8);
   BOOST_TEST(found.rigid_motions == 0);

@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(ball_decides_only_relations_true_for_all_its_numbers) {
   BOOST_CHECK_THROW((void)static_cast<int>(ceil(third * 3)), DerivationError);  // either 1 or 2
 }
 
-BOOST_AUTO_TEST_CASE(unknown_digits_are_refused) {
+BOOST_AUTO_TEST_CASE(digits_not_determined_by_a_ball_are_refused) {
   BOOST_TEST(acos(Ball(-1)).digits() == "3.14159265358979323846264338328");
   BOOST_TEST(Ball(Real(3)).digits() == "3.00000000000000000000000000000");
   BOOST_CHECK_THROW((void)(Ball(Real(1) / 3) - Ball(1) / 3).digits(), DerivationError);

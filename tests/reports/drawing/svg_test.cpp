@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(incomplete_drawing_is_refused) {
   BOOST_CHECK_THROW((void)tidy_svg("<svg viewBox=\"0 0 1 1\">", "a", "t", "d"), std::runtime_error);
 }
 
-BOOST_AUTO_TEST_CASE(digits_of_a_path_do_not_extend_an_escape) {
+BOOST_AUTO_TEST_CASE(path_digits_after_a_gnuplot_escape_are_escaped) {
   BOOST_TEST(gnuplot_path("/a%20") == R"("/a\045\062\060")");
 }
 

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_kept_effects) {
                  {"shear", "", "", true, false, 0, {}, 0.002, 0.002}};
   const std::string caption = effects_figure(info, results, run)->caption;
   BOOST_TEST(contains(caption, "Kept: link mass (5\u202f%). Omitted: shear (0.2\u202f%)."));
-  BOOST_TEST(contains(caption, "Requested 1\u202f%, obtained 0.2\u202f%."));
+  BOOST_TEST(contains(caption, "Permitted change 1\u202f%, obtained 0.2\u202f%."));
 }
 
 BOOST_AUTO_TEST_CASE(page_of_scenes_only_shows_their_effects) {

@@ -24,7 +24,8 @@ CaseInfo beam() {
   return info;
 }
 
-/// Returns a series with errors 0.1 n^-order from 1 to 64 elements, and round-off.
+/// Returns a convergence study with the errors 0.1 n^-order for n = 1 to 64 elements, and
+/// round-off.
 Convergence sweep(int index, double order) {
   Convergence c;
   c.sweep = "elements";
@@ -94,10 +95,10 @@ BOOST_AUTO_TEST_CASE(no_order_is_stated_outside_the_asymptotic_range) {
   Convergence coarse = sweep(0, 4);
   coarse.fitted_order.reset();
   const auto figure = convergence_figures(beam(), run_with({coarse}));
-  BOOST_TEST(contains(figure[0].caption, "Too few levels lie in the asymptotic range"));
+  BOOST_TEST(contains(figure[0].caption, "Too few refinement levels lie in the asymptotic range"));
   coarse.in_asymptotic_range.assign(coarse.in_asymptotic_range.size(), false);
   const auto none = convergence_figures(beam(), run_with({coarse}));
-  BOOST_TEST(contains(none[0].caption, "No level lies in the asymptotic range"));
+  BOOST_TEST(contains(none[0].caption, "No refinement level lies in the asymptotic range"));
 }
 
 BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
@@ -111,7 +112,7 @@ BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
              figure->caption);
 }
 
-BOOST_AUTO_TEST_CASE(count_exact_on_every_mesh_has_no_figure) {
+BOOST_AUTO_TEST_CASE(zero_error_on_every_mesh_has_no_convergence_figure) {
   Convergence count = sweep(0, 4);
   for (Number& error : count.error) error = 0;
   BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
@@ -185,7 +186,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   run.drawing->poses.push_back(run.drawing->poses.back());  // the last instant occurs twice
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
-  BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
+  BOOST_TEST(contains(figure->caption, "Instants: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
   BOOST_TEST(contains(figure->caption, "21 instants up to 10\u202fs"), figure->caption);
   BOOST_TEST(figure->data.rows.size() == 42U);
   BOOST_TEST(!contains(figure->moving, "still"));
@@ -207,7 +208,7 @@ BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
   run.drawing->shapes.resize(1);
   run.drawing->shapes[0].label = "mode 1, 1.4e+04 times the loads";
   const auto buckled = shapes_figure(beam(), run);
-  BOOST_TEST(contains(buckled->caption, "The lowest mode buckles at 1.4e+04 times the loads."));
+  BOOST_TEST(contains(buckled->caption, "The lowest buckling mode is at 1.4e+04 times the loads."));
   BOOST_TEST(contains(buckled->svg, "mode 1, 1.4\u202f×\u202f10⁴ times the loads"));
   run.drawing->shapes = {{"in phase", {{0, 0}, {0, 0}}}, {"behind", {{0, 0}, {0, -0.001}}}};
   BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
@@ -248,7 +249,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
       contains(call_history_figure(history).caption, "The newest call has 1 times the work."));
 }
 
-BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {
+BOOST_AUTO_TEST_CASE(straight_polyline_is_reduced_to_its_end_points) {
   const std::vector<std::vector<int>> line = {{0, 1, 2, 3}};
   BOOST_TEST(polyline_points(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
   BOOST_TEST(polyline_points(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);

@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   BOOST_TEST(figure->data.rows.size() == 70U);
   BOOST_TEST(
       contains(figure->caption,
-               " in Hz; values far from zero are dark. Each class has about the same number of "
+               " in Hz; values far from zero are dark. Each color covers about the same number of "
                "positions."));
   BOOST_TEST(contains(figure->commands, "'below 1'"));  // each class has ten values
   BOOST_TEST(contains(figure->alt, "The largest magnitude is 5.3 Hz"));
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
   const auto cold = map_figure(info, info.figures[0], {&run}, problem);
   const auto high = map_figure(info, info.figures[1], {&run}, problem);
   BOOST_TEST_REQUIRE((cold && high), problem);
-  BOOST_TEST(contains(cold->caption, "All maps of this quantity have the same classes"));
+  BOOST_TEST(contains(cold->caption, "All maps of this quantity have the same color scale"));
   BOOST_TEST(contains(cold->commands, "'below "));
   BOOST_TEST(!contains(cold->commands, "'above "));
   BOOST_TEST(contains(high->commands, "'above "));

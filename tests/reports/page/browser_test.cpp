@@ -35,7 +35,7 @@ void check_at(int width, const std::string& name) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(report_shows_every_figure_without_errors_on_a_desk) {
+BOOST_AUTO_TEST_CASE(report_is_displayed_without_errors_on_wide_screen) {
   for (const char* page : kPages) check_at(1280, page);
 }
 

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(pages_and_drawings_are_balanced_and_escaped) {
         name);
 }
 
-BOOST_AUTO_TEST_CASE(pages_load_nothing_else_and_every_link_arrives) {
+BOOST_AUTO_TEST_CASE(pages_load_no_other_files_and_all_links_are_valid) {
   const auto pages = pages_of(sample_report());
   BOOST_TEST(pages.size() > 8U);
   for (const auto& [path, text] : pages) {
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(pages_load_nothing_else_and_every_link_arrives) {
   BOOST_TEST(dead_links({{"index.html", "<a href=\"cases/none.html\">"}}, sample_report()) != "");
 }
 
-BOOST_AUTO_TEST_CASE(addresses_consist_of_names_only) {
+BOOST_AUTO_TEST_CASE(anchors_and_links_contain_names_instead_of_numbers) {
   const auto pages = pages_of(sample_report());
   const std::string& beam = pages.at("cases/beam-pinned-pinned.html");
   BOOST_TEST(beam.find(" id=\"check-exact\"") != std::string::npos);
@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(equal_results_make_equal_reports) {
   BOOST_TEST(compared > 20U);
 }
 
-BOOST_AUTO_TEST_CASE(page_is_good_only_without_any_failure) {
+BOOST_AUTO_TEST_CASE(report_states_success_only_without_any_failure) {
   Results results = sample_of("beam-pinned-pinned");
   const Workspace workspace;
   write_report(results, workspace.path() / "good");
@@ -331,7 +331,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   BOOST_TEST(read_text_file(out / "checks") == "mine");
 }
 
-BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
+BOOST_AUTO_TEST_CASE(unchanged_figures_are_not_drawn_again) {
   const Workspace workspace;
   Results results = sample_of("beam-pinned-pinned");
   results.environment.stored_runs = 1;

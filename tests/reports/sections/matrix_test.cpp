@@ -64,7 +64,7 @@ struct Sample {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
+BOOST_AUTO_TEST_CASE(conclusion_names_nearest_variant_of_missed_targets) {
   Sample sample;
   sample.results.runs[2].checks[0] = compared("program", 0, 0.005);
   const std::string words = sample.conclusion(sample.results.runs[0].checks[0]);
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
              words);
 }
 
-BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
+BOOST_AUTO_TEST_CASE(check_against_another_mode_has_no_matrix_column) {
   // The check "shifted" compares mode 1 with the target of mode 2. The matrix once showed the
   // result of this check in the column of mode 1, as if the target of mode 1 was reached.
   Sample sample;

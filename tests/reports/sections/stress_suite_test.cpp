@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
   BOOST_TEST(occurrences(text, "class=\"mark fails\"") == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(indicator_without_a_run_fails) {
+BOOST_AUTO_TEST_CASE(stress_suite_indicator_without_a_run_fails) {
   Results results = with_stress_suite();
   for (CaseInfo& info : results.cases)
     if (info.stress_suite) info.stress_suite->indicators = {"nowhere"};

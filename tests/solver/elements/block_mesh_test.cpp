@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(six_node_triangles_have_the_area_of_the_ellipse) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring) {
+BOOST_AUTO_TEST_CASE(four_annulus_quarters_share_nodes_of_a_closed_ring) {
   std::vector<Block> blocks;
   for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1, 2, k, 2, 3));
   for (const bool six : {false, true}) {

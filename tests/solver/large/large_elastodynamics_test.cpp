@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
     }
 }
 
-BOOST_AUTO_TEST_CASE(nominal_inertia_loads_the_equilibria) {
+BOOST_AUTO_TEST_CASE(inertia_of_nominal_motion_loads_quasi_static_motion) {
   for (const ElbowKind elbow : kElbows) {
     ElastodynamicsOptions options = options_of(elbow, 1, 6, 1);
     options.design.platform.mass = 2;

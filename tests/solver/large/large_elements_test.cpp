@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(rigid_rotation_of_a_triangle_has_no_energy) {
   BOOST_TEST(triangle.energy(q) < 1e-30);
 }
 
-BOOST_AUTO_TEST_CASE(masses_add_up) {
+BOOST_AUTO_TEST_CASE(element_mass_matrices_sum_to_the_total_mass) {
   const Beam beam = some_beam();
   Beam::Coordinates along = Beam::Coordinates::Zero();
   for (int a = 0; a <= 3; ++a) along[3 * a] = 1;

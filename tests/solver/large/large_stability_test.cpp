@@ -43,7 +43,7 @@ Model shallow_arch(double across) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
+BOOST_AUTO_TEST_CASE(equilibrium_path_ends_at_its_target_load) {
   // The path of equilibria must end at the target load. If Newton's method does not converge from a
   // state far from the target, the load step must be reduced.
   const GeometricallyExactSystem system(column(24));

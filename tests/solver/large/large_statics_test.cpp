@@ -57,7 +57,7 @@ StaticSolution estimate_of(const Vector2d& force) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(stable_path_with_small_error_uses_two_tangents) {
+BOOST_AUTO_TEST_CASE(estimate_of_a_stable_state_uses_two_factorizations) {
   const double critical = kPi * kPi / 4;  // buckling value of P L^2 / EI
   BOOST_TEST(estimate_of({0, 0.1}).counters.factorizations == 2);
   BOOST_TEST(estimate_of({-0.9 * critical, 0}).counters.factorizations == 2);
@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_fine_mesh_shortens_no_step) {
   const StaticPath path = follow_static_path(system, options);
   std::fesetround(FE_TONEAREST);
   BOOST_REQUIRE(path.outcome.solved());
-  BOOST_TEST(std::abs(tip(system, path)[1] - kSmall.transverse) < 2e-11);  // 10 3 N 2 eps
+  // The limit exceeds 10 * 3 N * 2 eps, with N elements and 3 N coordinates.
+  BOOST_TEST(std::abs(tip(system, path)[1] - kSmall.transverse) < 2e-11);
 }
 
 BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
@@ -142,7 +143,8 @@ BOOST_AUTO_TEST_CASE(section_forces_balance_the_loads_in_the_bent_shape) {
       1e-11);
 }
 
-BOOST_AUTO_TEST_CASE(free_motion_is_named) {  // and a path without coordinates is one point
+BOOST_AUTO_TEST_CASE(mechanism_is_reported_as_a_free_motion) {
+  // In addition, a path of equilibria without coordinates has one point.
   Model model = beam(unit_section(), 1, 2);
   model.supports = {pin(0)};
   model.loads = {{1, {0, 1, 0}}};

@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(start_has_the_velocity_and_acceleration_of_its_drive) {
   BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 1e-3).solved());
   BOOST_TEST(node_motion(system, state.q)(0, 2) == 0.06, tolerance(1e-12));
   BOOST_TEST(node_motion(system, state.v)(0, 2) == 0.6, tolerance(1e-12));
-  BOOST_TEST(node_motion(system, state.a)(0, 2) == 3, tolerance(1e-6));  // differenced numerically
+  BOOST_TEST(node_motion(system, state.a)(0, 2) == 3, tolerance(1e-6));  // by finite differences
 }
 
 BOOST_AUTO_TEST_SUITE_END()

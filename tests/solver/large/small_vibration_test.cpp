@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(model_without_mass_is_refused) {
   const GeometricallyExactSystem system(model);
   const SmallVibration found = large_motion::small_vibration(system, system.reference_state(), 1);
   BOOST_TEST((found.outcome.status == Status::singular));
-  BOOST_TEST(found.outcome.reason == "nothing vibrates: no part that can move has a mass");
+  BOOST_TEST(found.outcome.reason == "nothing vibrates: no movable coordinate has a mass");
 }
 
 BOOST_AUTO_TEST_CASE(model_too_large_for_a_dense_matrix_is_refused) {

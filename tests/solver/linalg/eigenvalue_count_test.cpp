@@ -16,7 +16,7 @@ SparseMatrix diagonal(const VectorXd& values) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(missed_and_repeated_modes_are_counted) {
+BOOST_AUTO_TEST_CASE(missing_and_duplicate_eigenvalues_are_counted) {
   const SparseMatrix A = diagonal(VectorXd{{1, 2, 2, 5, 9}}), B = diagonal(VectorXd::Ones(5));
   MatrixXd shapes = MatrixXd::Identity(5, 4);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}) == 0);

@@ -67,7 +67,8 @@ BOOST_AUTO_TEST_CASE(factors_are_reused_for_the_same_matrix_only) {
 }
 
 BOOST_AUTO_TEST_CASE(last_correction_is_relative_to_the_solution) {
-  // Solves 4 x = 8 iteratively with the factor of 5. Each of eight steps divides the error by 5.
+  // Solves 4 x = 8 iteratively with the factorization of the 1 x 1 matrix [5]. Each of eight steps
+  // divides the error by 5.
   SparseMatrix A(1, 1);
   A.insert(0, 0) = 5;
   Factorization factorization;

@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(unit_of_length_does_not_change_the_pivots) {
   BOOST_TEST((pivots(1) == pivots(1e-3)));
 }
 
-BOOST_AUTO_TEST_CASE(node_of_a_rigid_body_takes_clamp_and_moment) {
+BOOST_AUTO_TEST_CASE(clamp_and_moment_may_act_on_any_rigid_body_node) {
   const auto tip_under_moment = [](Index clamped, Index loaded) {
     Model model = beam(unit_section(), 1, 1, 0.9);
     const Vector2d start = model.nodes[0].position, end = model.nodes[1].position;

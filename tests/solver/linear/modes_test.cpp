@@ -42,11 +42,11 @@ BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
+BOOST_AUTO_TEST_CASE(dense_and_sparse_methods_agree_on_repeated_modes) {
   const System system = assemble(pinned_double_cross(8));
   const ModalSolution all = solve_modes(system, {16, EigenMethod::dense});
   for (const EigenMethod path : kPaths)
-    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6 and 13 are inside a cluster
+    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6 and 13 split equal frequencies
       const ModalSolution m = solve_modes(system, {count, path});
       BOOST_REQUIRE(m.outcome.solved());
       BOOST_REQUIRE(m.frequency.size() == count);
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
     }
 }
 
-BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
+BOOST_AUTO_TEST_CASE(all_rigid_modes_are_counted_if_fewer_are_requested) {
   const Model model = beam(unit_section(1e7), 1, 8);
   for (const EigenMethod path : kPaths)
     for (const Index count : {1, 3}) {

@@ -29,7 +29,7 @@ double first_factor(const Model& model, EigenMethod path = EigenMethod::automati
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(both_methods_return_the_same_factors) {
+BOOST_AUTO_TEST_CASE(dense_and_sparse_buckling_factors_are_equal) {
   const System system = assemble(column(40, 0.3));
   const BucklingSolution dense = solve_buckling(system, {4, EigenMethod::dense});
   const BucklingSolution sparse = solve_buckling(system, {4, EigenMethod::sparse});
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(inextensible_column_buckles_as_a_stiff_one) {
   BOOST_TEST(first_factor(model) == stiff, tolerance(1e-5));
 }
 
-BOOST_AUTO_TEST_CASE(load_past_buckling_has_no_stable_state) {
+BOOST_AUTO_TEST_CASE(modes_beyond_the_buckling_load_are_refused) {
   Model model = column(8, 0.3);
   model.loads[0].force *= 3;  // 3 N, above the buckling load pi^2 / 4 = 2.47 N
   const ModalSolution r = solve_prestressed_modes(assemble(model), {3, EigenMethod::dense});

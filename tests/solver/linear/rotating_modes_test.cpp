@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(modes_at_rest_are_the_ordinary_modes) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(lag_is_softened_by_the_square_of_the_speed) {
+BOOST_AUTO_TEST_CASE(squared_lag_frequency_falls_by_the_squared_speed) {
   for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped}) {
     Model model = blade(0.5, 12, 0);
     model.members[0].axially_flexible = false;

@@ -40,7 +40,7 @@ Vector2d joint_of_a_toggle(const Model& model) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(error_that_is_not_a_number_is_no_solution) {
+BOOST_AUTO_TEST_CASE(displacement_error_of_nan_is_not_solved) {
   BOOST_TEST(outcome_by_displacement_error(0.09).solved());
   BOOST_TEST(!outcome_by_displacement_error(0.11).solved());
   BOOST_TEST(!outcome_by_displacement_error(std::nan("")).solved());

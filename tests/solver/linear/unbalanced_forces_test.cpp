@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_detected) {
   BOOST_TEST(reaction.unbalanced() > 1e-9);
 }
 
-BOOST_AUTO_TEST_CASE(stale_load_leaves_rows_unbalanced) {
+BOOST_AUTO_TEST_CASE(load_changed_after_the_solution_unbalances_rows) {
   Solved s = manipulator();
   s.system.load *= 1.0001;
   RowBalance<double> rows(s.system);

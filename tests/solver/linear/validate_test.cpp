@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
 }
 
 BOOST_AUTO_TEST_CASE(triangle_folded_at_a_middle_node_is_refused) {
-  const auto folded = [](Model& m) {  // determinant: corners >= 0.2, a middle -0.2
+  const auto folded = [](Model& m) {  // Jacobian: corners >= 0.2, a mid-side -0.2
     m.nodes[2].position = {0, 1};
     m.triangles[0].nodes = {0, 1, 2, 3, 4, 5};
     for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})
@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
   says("the point mass at node B has a negative mass", [](Model& m) { m.masses[0].mass = -1; });
   says("spring spring joins a node with itself", [](Model& m) { m.springs[0].nodes[1] = 2; });
   says(
-      "the support of node C fixes a rotation that the node does not have: no member ends there "
-      "and no rigid body contains the node",
+      "the support of node C fixes a rotation that the node does not have: no member end is joined "
+      "to the node and no rigid body contains the node",
       [](Model& m) { m.supports.push_back(clamp(2)); });
   says("node C has no rotation: no member end is welded to it, no rigid body contains it",
        [](Model& m) {

@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(matrices_of_a_resting_manipulator_are_factored_once) {
   const ElastodynamicsOptions options = resting(5e-4);
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST(s.time.size() == 201U);
-  BOOST_TEST(s.summary.counters.factorizations == 3);  // of mass, step matrix and stiffness
+  BOOST_TEST(s.summary.counters.factorizations == 3);  // of mass, step and stiffness matrix
 }
 
 BOOST_AUTO_TEST_CASE(effects_of_inertia_and_gyroscopic_terms_are_estimated) {
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(mechanism_has_no_quasi_static_deflection) {
   BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic frequency
 }
 
-BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
+BOOST_AUTO_TEST_CASE(unsupported_option_combinations_are_refused) {
   const Path line = RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2};
   const std::vector<std::function<void(ElastodynamicsOptions&)>> changes = {
       [](auto& o) { o.modal_superposition = true; },

@@ -29,7 +29,7 @@ double distance(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(torques_of_the_circle_follow_the_circle) {
+BOOST_AUTO_TEST_CASE(inverse_dynamics_torques_reproduce_the_circle) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
   const auto torque = [&](double t) { return inverse_dynamics(m, at(circle, t)).torque; };
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(energy_residual_does_not_depend_on_the_samples) {
   BOOST_TEST(residual(40) == residual(2), tolerance(0.1));
 }
 
-BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
+BOOST_AUTO_TEST_CASE(torque_function_with_a_delay_is_refused) {
   RigidManipulator m = rigid_manipulator(table_1_design());
   m.gravity = {0, -9.81};
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};

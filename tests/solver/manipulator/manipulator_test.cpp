@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(joint_kinds_become_fixities) {
+BOOST_AUTO_TEST_CASE(joint_kinds_determine_supports_and_end_fixities) {
   ManipulatorDesign design = rigid_design();
   design.active = {ActiveJoint{ActiveKind::locked}, {ActiveKind::free}, {ActiveKind::sprung, 7}};
   design.elbow = {ElbowJoint{ElbowKind::welded}, {ElbowKind::hinged}, {ElbowKind::sprung, 8}};
@@ -288,7 +288,7 @@ BOOST_AUTO_TEST_CASE(invalid_designs_are_refused_with_the_reason) {
   };
   using Kind = PlatformJointKind;
   const std::vector<Row> rows = {
-      {"Eq. 25 gives the rotation of a rigid platform",
+      {"joint types eq25-mean and eq25-sum require a rigid platform",
        [](auto& d) { d.platform_joint.fill({Kind::eq25_mean}); }},
       {"platform at C2: a node of constant-strain triangles has no",
        [](auto& d) { d.platform_joint[1].kind = Kind::welded; }},

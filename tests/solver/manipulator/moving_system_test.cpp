@@ -37,7 +37,7 @@ std::vector<ManipulatorDesign> designs() {
     for (LinkDesign& link : design.distal) link.elements = 3;
   all[1].platform.kind = PlatformKind::rigid;
   all[1].platform_joint.fill({PlatformJointKind::welded});
-  all[2].platform.kind = PlatformKind::rigid;  // P off the mass center; printed inertias
+  all[2].platform.kind = PlatformKind::rigid;  // P is not the mass center; inertias are given
   for (Vector2d& c : all[2].geometry.platform) c += Vector2d(0.01, -0.005);
   for (std::size_t i = 0; i < 3; ++i) {
     all[2].proximal[i].inertia = all[2].distal[i].inertia = 0.00078;
@@ -79,7 +79,7 @@ double difference(const MatrixXd& a, const MatrixXd& b) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
+BOOST_AUTO_TEST_CASE(moved_system_equals_a_newly_assembled_system) {
   for (const ManipulatorDesign& design : designs()) {
     Walk walk(design, circle_with_rotation(), 0.1, false);
     for (const double time : {0.1, 0.33, 0.7}) {
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
+BOOST_AUTO_TEST_CASE(nonzeros_of_inextensible_links_grow_linearly) {
   // The elimination of constraints once made each node depend on all previous nodes of its link.
   // The number of nonzeros of the stiffness matrix then increased quadratically.
   std::vector<double> entries;
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
   BOOST_TEST(entries[1] / entries[0] < 2.1);
 }
 
-BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
+BOOST_AUTO_TEST_CASE(refused_pose_leaves_the_system_unchanged) {
   Walk walk(designs()[3], circle_with_rotation(), 0.1, false);
   MovingSystem& moving = walk.moving;
   const NominalMotion before = moving.motion();

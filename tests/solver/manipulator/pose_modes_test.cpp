@@ -60,7 +60,7 @@ void check(const char* what, const ManipulatorDesign& design, const std::vector<
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(round_off_is_that_of_single_poses) {
+BOOST_AUTO_TEST_CASE(roundoff_estimate_equals_that_of_single_poses) {
   const ManipulatorDesign design = with_elements(16);
   const std::vector<Pose> poses = circle(5, 0.01);
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 3});
@@ -103,14 +103,14 @@ BOOST_AUTO_TEST_CASE(joints_masses_and_theories_are_condensed_exactly) {
   check("Eq. 25", design, poses, 4);
 }
 
-BOOST_AUTO_TEST_CASE(inactive_effects_are_followed) {
+BOOST_AUTO_TEST_CASE(pose_modes_respect_inactive_effects) {
   const ManipulatorDesign design = with_elements(4);
   const Effects all = Effects::all();
   check("inextensible", design, circle(6, 0.02), 3, 0, all.without(Effect::axial_flexibility));
   check("massless links", design, circle(3, 0.02), 3, 3, all.without(Effect::link_mass));
 }
 
-BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_copies) {
+BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_multiplicity) {
   // At the center, the manipulator has a threefold symmetry with pairs of equal frequencies.
   const std::vector<Pose> poses(3, centered_pose());
   const ManipulatorDesign design = with_elements(4);
@@ -153,7 +153,8 @@ BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
   design.proximal[1].material.E *= 480;
   design.distal[1].material.E *= 48000;
   design.distal[1].material.rho *= 100;
-  const auto with_reach = [](double reach) {  // reach of arm 2, to its upper left
+  // Returns a pose at which arm 2 has the length `reach` from its base to its platform joint.
+  const auto with_reach = [](double reach) {
     const double c = std::numbers::sqrt2 / 2;
     return Pose{0.4 - c * reach, c * reach + 0.1 / std::numbers::sqrt3, 0};
   };
@@ -180,7 +181,7 @@ BOOST_AUTO_TEST_CASE(pose_out_of_reach_stops_no_other) {
   BOOST_TEST(!none.outcome[0].solved());
 }
 
-BOOST_AUTO_TEST_CASE(any_number_of_threads_returns_the_same_bits) {
+BOOST_AUTO_TEST_CASE(results_are_bit_identical_for_any_thread_count) {
   const std::vector<Pose> poses = circle(300, 0.01);
   const ManipulatorDesign design = with_elements(2);
   const PoseModes one = solve_pose_modes(design, poses, {.count = 3, .threads = 1});

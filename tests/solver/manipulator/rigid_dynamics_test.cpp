@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(torques_scale_with_the_square_of_speed_and_with_mass) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(bodies_of_a_design_have_its_masses) {
+BOOST_AUTO_TEST_CASE(rigid_bodies_have_the_masses_of_the_design) {
   ManipulatorDesign design = table_1_design();
   const RigidManipulator by_density = rigid_manipulator(design);
   BOOST_TEST(by_density.proximal[0].mass == 0.0243, tolerance(1e-14));

@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(cut_set_keeps_its_lowest_derivative) {
+BOOST_AUTO_TEST_CASE(incomplete_frequency_set_keeps_lowest_derivative) {
   const ManipulatorDesign design = coarse_design();
   const DesignParameter parameter = one_length(0, true);
   const FrequencySensitivity all_six =
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
   BOOST_TEST(reachable > grid.rows * grid.columns / 4);
 }
 
-BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
+BOOST_AUTO_TEST_CASE(workspace_boundary_has_a_singular_limb) {
   ManipulatorGeometry geometry = coarse_design().geometry;
   geometry.distal = {0.15, 0.2, 0.18};
   std::size_t all = 0, points = 0;
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
   BOOST_TEST(points == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(singular_curve_has_no_parallel_distance) {
+BOOST_AUTO_TEST_CASE(parallel_determinant_is_zero_on_singular_curves) {
   const ManipulatorGeometry geometry = coarse_design().geometry;
   const PoseGrid grid = reachable_grid(geometry, 0.1, 81);
   const std::vector<Polyline> curve = parallel_singularities(geometry, grid);

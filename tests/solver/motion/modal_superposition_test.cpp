@@ -19,7 +19,7 @@ namespace {
 using Big = boost::multiprecision::cpp_bin_float_100;
 
 /// Returns the impulse response by Taylor series with 100 digits in sufficiently short intervals.
-ImpulseResponse in_long_digits(double omega, double decay, double t) {
+ImpulseResponse response_with_100_digits(double omega, double decay, double t) {
   const int pieces = 1 + static_cast<int>(std::max(omega, decay) * t / 4);
   const Big w2 = Big(omega) * Big(omega);
   const Big dt = Big(t) / pieces;
@@ -56,7 +56,7 @@ ImpulseResponse in_long_digits(double omega, double decay, double t) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
+BOOST_AUTO_TEST_CASE(impulse_response_is_accurate_for_any_damping) {
   double worst = 0;
   for (const double omega : {0.0, 1e-6, 1e-2, 0.9, 3.0, 50.0})
     for (const double ratio :
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
       for (const double t : {1e-5, 0.01, 0.3, 1.1, 7.0}) {
         if (decay * t > 500) continue;
         const ImpulseResponse r = impulse_response(omega, decay, t);
-        const ImpulseResponse exact = in_long_digits(omega, decay, t);
+        const ImpulseResponse exact = response_with_100_digits(omega, decay, t);
         // Errors are relative to the largest amplitudes of an undamped motion. The factor 1 + w t
         // allows for the round-off error of the phase w t.
         const double phase = 1 + omega * t, h_size = std::min(t, 1 / std::max(omega, 1e-300));
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
   BOOST_TEST(worst < 2e-14);
 }
 
-BOOST_AUTO_TEST_CASE(modes_are_orthogonal_without_massless_coordinates) {
+BOOST_AUTO_TEST_CASE(modes_omit_massless_coordinates_and_are_orthogonal) {
   const SparseMatrix M = sparse(Eigen::Vector4d(1, 2, 0, 3).asDiagonal());
   const SparseMatrix K = sparse(
       (Eigen::Matrix4d() << 2, -1, -1, 0, -1, 4, -2, -1, -1, -2, 5, -2, 0, -1, -2, 3).finished());
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(modes_are_orthogonal_without_massless_coordinates) {
   BOOST_TEST(basis.omega[0] == 0);  // rigid-body mode: the rows of K have zero sums
 }
 
-BOOST_AUTO_TEST_CASE(load_takes_the_value_after_a_jump) {
+BOOST_AUTO_TEST_CASE(load_at_the_time_of_a_jump_has_the_later_value) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Identity(1, 1);
   load.time = {0, 1, 1, 3};
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(overflowing_numbers_have_no_modes) {
   BOOST_TEST(!all_modes(M, K).outcome.solved());
 }
 
-BOOST_AUTO_TEST_CASE(overdamping_begins_at_the_printed_limits) {
+BOOST_AUTO_TEST_CASE(overdamping_frequency_agrees_with_closed_form) {
   const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};
   BOOST_TEST(damping_ratio(printed, overdamping_frequency(printed)) == 1, tolerance(1e-12));
   BOOST_TEST(std::isinf(overdamping_frequency({.mass = 1, .stiffness = 0})));

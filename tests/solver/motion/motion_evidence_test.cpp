@@ -49,7 +49,7 @@ struct AskedFirst {
 /// Returns an oscillator whose matrices are correct in the residuals, but changed by `spoil` in the
 /// time integration.
 template <class Spoil>
-EquationOfMotion seen_wrongly(const Spoil& spoil) {
+EquationOfMotion faulty_equation(const Spoil& spoil) {
   EquationOfMotion equation = oscillator();
   equation.update = [spoil, first = AskedFirst{}](double t, SparseMatrix& M, SparseMatrix& C,
                                                   SparseMatrix& K) mutable {
@@ -61,7 +61,7 @@ EquationOfMotion seen_wrongly(const Spoil& spoil) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
+BOOST_AUTO_TEST_CASE(energy_residual_of_every_scheme_is_round_off) {
   for (const TimeScheme& scheme :
        {average_acceleration(), linear_acceleration(), central_difference(), newmark(0.3025, 0.6),
         hht_alpha(-0.3), generalized_alpha(1), generalized_alpha(0.5), generalized_alpha(0)}) {
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(stale_load_is_refused) {
+BOOST_AUTO_TEST_CASE(load_that_changes_between_two_calls_is_refused) {
   EquationOfMotion equation = oscillator();
   equation.load = [first = AskedFirst{}](double t, VectorXd& f) mutable {
     f[0] = 3 + 5 * std::sin(7 * (first(t) ? t - 0.02 : t));
@@ -87,14 +87,14 @@ BOOST_AUTO_TEST_CASE(stale_load_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(wrong_matrices_are_refused) {
-  const auto right = seen_wrongly([](auto&, auto&, auto&) {});
+  const auto right = faulty_equation([](auto&, auto&, auto&) {});
   BOOST_TEST(run(right).summary.outcome.solved());
-  const auto damping = seen_wrongly([](auto&, SparseMatrix& C, auto&) { C = -1 * C; });
+  const auto damping = faulty_equation([](auto&, SparseMatrix& C, auto&) { C = -1 * C; });
   BOOST_TEST(!run(damping).summary.outcome.solved());
-  const auto inertia = seen_wrongly([](SparseMatrix& M, auto&, auto&) { M = scalar(1.9); });
+  const auto inertia = faulty_equation([](SparseMatrix& M, auto&, auto&) { M = scalar(1.9); });
   BOOST_TEST(!run(inertia).summary.outcome.solved());
   const auto stiffness =
-      seen_wrongly([](auto&, auto&, SparseMatrix& K) { K = scalar(200 * (1 + 1e-3)); });
+      faulty_equation([](auto&, auto&, SparseMatrix& K) { K = scalar(200 * (1 + 1e-3)); });
   BOOST_TEST(!run(stiffness).summary.outcome.solved());
 }
 

@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(constant_speed_has_the_steady_state_of_the_frame) {
   BOOST_TEST((equation.K * rotating.q - f).norm() < 1e-9 * f.norm());
 }
 
-BOOST_AUTO_TEST_CASE(loads_that_do_not_turn_are_refused) {
+BOOST_AUTO_TEST_CASE(loads_that_do_not_rotate_with_the_frame_are_refused) {
   Model model = cantilever(unit_section(), 1, 2);
   model.loads.push_back({1, Vector3d(0, 1, 0)});
   const System system = assemble(model);

@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(load_that_is_not_a_number_ends_the_motion) {
   BOOST_TEST(h.q.allFinite());
 }
 
-BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_as_ten, *boost::unit_test::label("allocations")) {
+BOOST_AUTO_TEST_CASE(step_count_does_not_add_allocations, *boost::unit_test::label("allocations")) {
   EquationOfMotion equation = chain(40, 1, 100);
   equation.C = damping_matrix({.mass = 0.1, .stiffness = 1e-3}, equation.M, equation.K);
   equation.load = [](double t, VectorXd& f) { f.setConstant(std::sin(t)); };
