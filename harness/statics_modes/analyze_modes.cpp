@@ -38,7 +38,7 @@ solver::System reduce_if_requested(const JsonView& analysis, const CaseModel& ca
   require_absent(analysis, "count_below_Hz", "reduction",
                  "the count includes all modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening))
-    throw analysis["reduction"].error("this key excludes geometric stiffening ('prestressed')");
+    throw analysis["reduction"].error("expected no geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
     throw analysis["reduction"].error(
         "this analysis requires a reduction by 'fixed_interface_modes' (got 'modes')");
@@ -191,7 +191,7 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
   if (analysis.has("rotating")) {
     require_absent(analysis, "count_below_Hz", "rotating", "the count refers to the model at rest");
     require_absent(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
-    require_absent(analysis, "prestressed", "rotating", "a rotating frame always includes loads");
+    require_absent(analysis, "prestressed", "rotating", "'rotating' includes this stiffening");
     if (case_model.path) throw analysis["rotating"].error("'rotating' requires one 'pose'");
     return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);

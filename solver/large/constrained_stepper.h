@@ -113,7 +113,7 @@ class ConstrainedStepper : public Stepper {
     TimeScheme relations;
     double error_constant = 0;
     bool keeps_rates = true;  ///< true: velocities satisfy rigid constraints at step ends
-    /// Weight of accelerations in the limit that `resolution` sets.
+    /// Factor of the accelerations to which `resolution` is relative.
     double acceleration_share = 1;
     double resolution = 0;           ///< limit of Newton corrections relative to accelerations
     double position_resolution = 0;  ///< limit of Newton corrections relative to positions

@@ -291,8 +291,8 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
 
 namespace {
 
-/// Ratio of the smallest pivot to the diagonal up to which the stiffness matrix is treated as
-/// singular.
+/// Smallest ratio of a pivot to the diagonal element in its row for which the stiffness matrix is
+/// treated as regular.
 constexpr double kSingularPivotRatio = 1e-13;
 
 Model loaded_model(const ElastodynamicsOptions& options, double time) {
