@@ -102,7 +102,7 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
   }
 }
 
-void set_solver_rounding(int mode) {
+void set_solver_rounding_mode(int mode) {
   solver_rounding = mode;
 }
 

@@ -33,7 +33,7 @@ struct AnalysisResult : StepResult {
 
 /// Sets the rounding mode (of <cfenv>) of the solver in this process and in processes that it
 /// forks. Code outside of the solver, such as checks and output, continues to round to nearest.
-void set_solver_rounding(int mode);
+void set_solver_rounding_mode(int mode);
 
 /// Adds a warning if the determinant of the parallel Jacobian changes its sign between two points
 /// of a manipulator's path. The path then crosses a singularity between these two points, where

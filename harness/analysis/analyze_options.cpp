@@ -91,7 +91,7 @@ bool all_finite(const Quantities& quantities) {
   });
 }
 
-bool contains_all(const std::string& reason, const std::vector<std::string>& required_terms) {
+bool contains_all_terms(const std::string& reason, const std::vector<std::string>& required_terms) {
   return !reason.empty() && std::ranges::all_of(required_terms, [&](const std::string& word) {
     return reason.find(word) != std::string::npos;
   });
@@ -111,7 +111,7 @@ void count(const AnalysisResult& result, const std::vector<std::string>& require
       return;
     case solver::Status::not_converged:
       ++counts["not_converged"];
-      counts["unexplained"] += contains_all(reason, required_terms) ? 0 : 1;
+      counts["unexplained"] += contains_all_terms(reason, required_terms) ? 0 : 1;
       return;
   }
 }
@@ -159,7 +159,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
 
 /// Returns the cases to be computed for a variant: the variant itself or, if its analysis is a
 /// study, the cases with the selected parameter values.
-std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
+std::vector<Document> cases_to_compute(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;
   std::vector<Level> all = study_levels(document);
@@ -190,7 +190,7 @@ StepResult analyze_options(const Document& document, const References& reference
       const Document whole = patched(tried, variant);
       if (analysis_kind(whole) == "options")
         throw choice.error("expected a case with an analysis other than 'options'");
-      for (const Document& added : computations_of(whole, choice))
+      for (const Document& added : cases_to_compute(whole, choice))
         run_combinations(added, place, references, seen, own);
     }
     for (const auto& [quantity, number] : own) {

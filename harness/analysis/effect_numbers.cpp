@@ -27,7 +27,7 @@ double highest_first_frequency(const solver::Model& model) {
 }
 
 /// Returns the largest number of bending half waves in a member at an angular frequency [rad/s].
-double max_half_wave_count(const solver::Model& model, double omega) {
+double max_half_waves_in_member(const solver::Model& model, double omega) {
   double most = 1;
   for (const solver::Member& member : model.members) {
     const solver::Section& section = member.section;
@@ -60,7 +60,7 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
     const auto damping = analysis.find("damping");
     const auto rayleigh = damping ? damping->find("rayleigh") : std::nullopt;
     const double stiffness = rayleigh ? rayleigh->get("stiffness_s", 0.0) : 0;
-    scale.half_waves = max_half_wave_count(model, omega);
+    scale.half_waves = max_half_waves_in_member(model, omega);
     scale.phase = stiffness > 0 ? std::clamp(1 / (stiffness * omega), kLeast, kMost) : kMost;
     scale.platform = 10;
   } else if (analysis_name == "transient" || analysis_name == "large-motion") {

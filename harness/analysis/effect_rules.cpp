@@ -66,48 +66,48 @@ const EffectWords& words_of(Effect effect) {
   return table[static_cast<std::size_t>(effect)];
 }
 
-EffectScope statics_scope(const JsonView&, const solver::Model& model) {
+EffectScope effects_in_statics(const JsonView&, const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).without(Effect::rotary_inertia);
   if (!scope.applicable.has(Effect::gravity))
     scope.applicable = scope.applicable.without(Effect::link_mass);
   scope.applicable =
       scope.applicable.with(Effect::geometric_stiffening).with(Effect::large_displacement);
-  dependents_of(scope, Effect::gravity) = Effects().with(Effect::link_mass);
+  dependent_effects(scope, Effect::gravity) = Effects().with(Effect::link_mass);
   const Effects large = Effects().with(Effect::large_displacement);
-  dependents_of(scope, Effect::geometric_stiffening) = large;
+  dependent_effects(scope, Effect::geometric_stiffening) = large;
   if (solver::is_axially_overconstrained(model))
-    dependents_of(scope, Effect::axial_flexibility) = large;
+    dependent_effects(scope, Effect::axial_flexibility) = large;
   return scope;
 }
 
-bool is_loaded(const solver::Model& model) {
+bool has_any_load(const solver::Model& model) {
   const bool on_members =
       std::ranges::any_of(model.members, [](const solver::Member& m) { return !m.load.isZero(0); });
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
 /// Returns the applicable and the required effects of an analysis of vibration.
-EffectScope inertia_scope(const solver::Model& model) {
+EffectScope effects_with_inertia(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
   scope.required = Effects().with(Effect::inertia);
-  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  dependent_effects(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
-EffectScope modes_at_rest_scope(const solver::Model& model) {
-  EffectScope scope = inertia_scope(model);
-  if (is_loaded(model) || scope.applicable.has(Effect::gravity))
+EffectScope effects_in_rest_modes(const solver::Model& model) {
+  EffectScope scope = effects_with_inertia(model);
+  if (has_any_load(model) || scope.applicable.has(Effect::gravity))
     scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
-  dependents_of(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
+  dependent_effects(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
   return scope;
 }
 
 /// Returns the applicable and the required effects of modes in a rotating frame. If the model has
 /// gravity, gravity is a required effect.
-EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
-  EffectScope scope = inertia_scope(model);
+EffectScope effects_in_rotating_modes(const JsonView& rotating, const solver::Model& model) {
+  EffectScope scope = effects_with_inertia(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
   // If the axis of rotation lies in the plane of the model, Coriolis forces are normal to this
@@ -117,7 +117,7 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   return scope;
 }
 
-EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
+EffectScope effects_in_given_motion(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope;
   scope.applicable =
       solver::applicable_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
@@ -133,23 +133,23 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
       solver::reason_no_large_displacement(read_model_independent_options(analysis), model);
   if (scope.no_large_displacement == nullptr)
     scope.applicable = scope.applicable.with(Effect::large_displacement);
-  dependents_of(scope, Effect::inertia) = with_velocity;
-  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  dependent_effects(scope, Effect::inertia) = with_velocity;
+  dependent_effects(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
 /// Returns true if point masses or plates have mass. If they have no mass, vibration requires the
 /// mass of members.
-bool has_mass_of_other_parts(const solver::Model& model) {
+bool has_mass_besides_members(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||
          std::ranges::any_of(model.plates,
                              [](const solver::Plate& one) { return one.material.rho > 0; });
 }
 
-EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model) {
-  EffectScope scope = inertia_scope(model);
-  if (scope.applicable.has(Effect::link_mass) && !has_mass_of_other_parts(model))
+EffectScope effects_in_vibration(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope = effects_with_inertia(model);
+  if (scope.applicable.has(Effect::link_mass) && !has_mass_besides_members(model))
     scope.required = scope.required.with(Effect::link_mass);
   if (analysis.has("damping")) scope.applicable = scope.applicable.with(Effect::damping);
   return scope;
@@ -157,14 +157,14 @@ EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model
 
 /// Returns the applicable and the required effects of a harmonic analysis. Damping is required,
 /// because only damping bounds a resonance peak, whose height the sampled frequencies do not show.
-EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
-  EffectScope scope = vibration_scope(analysis, model);
+EffectScope effects_in_harmonic(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope = effects_in_vibration(analysis, model);
   if (scope.applicable.has(Effect::damping)) scope.required = scope.required.with(Effect::damping);
   return scope;
 }
 
-EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& model) {
-  EffectScope scope = vibration_scope(analysis, model);
+EffectScope effects_in_large_motion(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope = effects_in_vibration(analysis, model);
   if (analysis.has("mass_damping_per_s") || analysis.has("strain_rate_damping_s"))
     scope.applicable = scope.applicable.with(Effect::damping);
   for (const Effect effect : {Effect::geometric_stiffening, Effect::large_displacement}) {
@@ -183,9 +183,9 @@ std::vector<EffectKey> modes_keys(const JsonView& analysis) {
   return {{Effect::geometric_stiffening, {"prestressed"}, false}};
 }
 
-EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
-  return analysis.has("rotating") ? rotating_scope(analysis["rotating"], model)
-                                  : modes_at_rest_scope(model);
+EffectScope effects_in_modes(const JsonView& analysis, const solver::Model& model) {
+  return analysis.has("rotating") ? effects_in_rotating_modes(analysis["rotating"], model)
+                                  : effects_in_rest_modes(model);
 }
 
 }  // namespace
@@ -218,7 +218,7 @@ const char* reason_required(Effect effect) {
              : "required by this analysis";
 }
 
-Effects& dependents_of(EffectScope& scope, Effect effect) {
+Effects& dependent_effects(EffectScope& scope, Effect effect) {
   return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
@@ -226,20 +226,20 @@ const EffectRules kStaticsEffects = {
     [](const JsonView&) -> std::vector<EffectKey> {
       return {{Effect::geometric_stiffening, {"second_order"}, false}};
     },
-    statics_scope, 0};
+    effects_in_statics, 0};
 
-const EffectRules kModesEffects = {modes_keys, modes_scope, 1};
+const EffectRules kModesEffects = {modes_keys, effects_in_modes, 1};
 
 const EffectRules kElastodynamicsEffects = {
     [](const JsonView&) -> std::vector<EffectKey> {
       return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
               {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
     },
-    motion_scope, 2};
+    effects_in_given_motion, 2};
 
-const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, 3};
-const EffectRules kTransientEffects = {no_keys, vibration_scope, 3};
-const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, 3};
+const EffectRules kHarmonicEffects = {no_keys, effects_in_harmonic, 3};
+const EffectRules kTransientEffects = {no_keys, effects_in_vibration, 3};
+const EffectRules kLargeMotionEffects = {no_keys, effects_in_large_motion, 3};
 
 solver::Model model_at_path_start(const CaseModel& case_model) {
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||

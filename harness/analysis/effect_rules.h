@@ -58,6 +58,6 @@ extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects,
 [[nodiscard]] solver::Model model_at_path_start(const CaseModel& case_model);
 
 /// Returns the effects that depend on an effect and are meaningless without it.
-[[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);
+[[nodiscard]] solver::Effects& dependent_effects(EffectScope& scope, solver::Effect effect);
 
 }  // namespace trammel::harness

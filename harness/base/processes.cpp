@@ -198,7 +198,7 @@ void put(int out, const void* data, std::size_t bytes) {
 /// memory. The parent process handles signals that stop the program.
 [[noreturn]] void work_on(const std::vector<ProcessTask>& tasks, Owners owners,
                           std::size_t memory_bytes, int out) noexcept {
-  set_out_of_memory_exit(kOutOfMemory, "");
+  set_exit_on_out_of_memory(kOutOfMemory, "");
   // An allocation failure ends the process without an exception. An exception would leave
   // incomplete JSON values, whose destructor reads a null pointer.
   std::set_new_handler([] { _exit(kOutOfMemory); });
@@ -369,7 +369,7 @@ extern "C" void print_and_end(int signal) {
 
 }  // namespace
 
-void set_out_of_memory_exit(int status, const char* line) {
+void set_exit_on_out_of_memory(int status, const char* line) {
   status_without_memory = status;
   line_without_memory = line;
   if (otherwise == nullptr) otherwise = std::set_terminate(end_by_exception);

@@ -36,7 +36,7 @@ struct ProcessOptions {
 
 /// Sets the exit status and the line on standard error for an allocation failure that no code
 /// catches. An example is a failure in a destructor of the JSON library.
-void set_out_of_memory_exit(int status, const char* line);
+void set_exit_on_out_of_memory(int status, const char* line);
 
 /// Returns the memory limit of this process [bytes]: the limit set by `run_in_processes`, else half
 /// of the smallest of machine memory, cgroup limit and address space.

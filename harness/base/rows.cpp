@@ -13,7 +13,7 @@
 namespace trammel::harness {
 namespace {
 
-std::size_t width_of(const std::string& text) {
+std::size_t text_width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
@@ -77,9 +77,9 @@ void Rows::print(std::ostream& out, const std::string& indent) const {
       right = right || row[c].is_number();
     }
     std::size_t width = 0;
-    for (const std::string& cell : cells) width = std::max(width, width_of(cell));
+    for (const std::string& cell : cells) width = std::max(width, text_width(cell));
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string space(width - width_of(cells[i]), ' ');
+      const std::string space(width - text_width(cells[i]), ' ');
       lines[i] += (lines[i] == indent ? "" : "  ") + (right ? space + cells[i] : cells[i] + space);
     }
   }

@@ -41,10 +41,10 @@ std::vector<Configuration> compute_configurations(const std::vector<Case>& cases
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
     const RunOptions options{.jobs = given.jobs, .memory_bytes = given.memory_bytes};
-    set_solver_rounding(mode);
+    set_solver_rounding_mode(mode);
     const std::vector<Run> runs =
         run_with_progress(cases, references, options, std::string("runs rounding ") + name);
-    set_solver_rounding(FE_TONEAREST);
+    set_solver_rounding_mode(FE_TONEAREST);
     configurations.push_back({name, collect_results(runs, cases, references)});
   }
   return configurations;
@@ -93,7 +93,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   const std::vector<Case> cases = select_cases(options);
   std::vector<Configuration> stored;
   for (const std::string& name : options.builds) {
-    const std::filesystem::path file = results_path(name);
+    const std::filesystem::path file = results_file_path(name);
     stored.push_back({name, read_results_json(file)});
     require_same_cases(cases, file, stored.back().results);
   }

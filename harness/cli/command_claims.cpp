@@ -37,7 +37,7 @@ void print_claim(const results::Claim& claim) {
   std::cout << wrapped(claim.undecidable, "     ");
 }
 
-void print_item(const results::PaperItem& item, const Json& claims) {
+void print_paper_item(const results::PaperItem& item, const Json& claims) {
   std::cout << item.id << " (" << item.section << "): " << item.what << '\n';
   for (const auto& shown : item.shown_by) {
     std::cout << "    " << shown.case_id << (shown.variant.empty() ? "" : ":" + shown.variant);
@@ -52,8 +52,8 @@ void print_item(const results::PaperItem& item, const Json& claims) {
 }
 
 /// Reads the stored runs of all cases, with all recorded values.
-std::vector<Run> stored_runs(const std::string& name, const std::vector<Case>& cases) {
-  results::Results stored = load_results(results_path(name));
+std::vector<Run> read_stored_runs(const std::string& name, const std::vector<Case>& cases) {
+  results::Results stored = load_results(results_file_path(name));
   for (const Case& one : cases)
     if (std::ranges::find(stored.runs, one.id(), &Run::case_id) == stored.runs.end())
       throw InputError(
@@ -70,7 +70,7 @@ int claims_command(const CommandOptions& options, const Renderers& /*renderers*/
   const std::vector<Case> cases = cases_used_by(document, Catalogue().load());
   const results::Claims claims = evaluate_claims(
       document, options.word.empty() ? run_with_progress(cases, References(), run_options)
-                                     : stored_runs(options.word, cases));
+                                     : read_stored_runs(options.word, cases));
   if (options.json) {
     std::cout << format_json(results::to_json(claims));
   } else {
@@ -85,12 +85,12 @@ int paper_command(const CommandOptions& options, const Renderers& /*renderers*/)
   results::Claims shown;
   shown.items = load_paper_items(claim_set, Catalogue());
   if (!options.word.empty())
-    judge_paper_items(read_results_json(results_path(options.word)), shown.items);
+    judge_paper_items(read_results_json(results_file_path(options.word)), shown.items);
   if (options.json) {
     std::cout << format_json(results::to_json(shown).at("items"));
   } else {
     for (const results::PaperItem& item : shown.items)
-      print_item(item, claim_set.value().at("claims"));
+      print_paper_item(item, claim_set.value().at("claims"));
   }
   return 0;
 }

@@ -76,8 +76,8 @@ std::vector<Side> load_or_compute_results(const std::vector<std::string>& names)
   std::vector<Side> sides;
   std::vector<std::string> others;
   for (const std::string& name : names) {
-    const fs::path file = results_path(name);
-    if (Json json = read_if_results(file); !json.is_null()) {
+    const fs::path file = results_file_path(name);
+    if (Json json = read_json_if_results(file); !json.is_null()) {
       sides.push_back({name, read_results_json(file, std::move(json)), std::nullopt});
     } else {
       others.push_back(name);
@@ -200,11 +200,11 @@ std::string csv(const SideComparison& comparison) {
 
 }  // namespace
 
-fs::path results_path(const std::string& name) {
+fs::path results_file_path(const std::string& name) {
   return fs::is_directory(name) ? fs::path(name) / "results.json" : fs::path(name);
 }
 
-Json read_if_results(const fs::path& file) {
+Json read_json_if_results(const fs::path& file) {
   if (file.extension() != ".json") return nullptr;
   Json json = read_json(file);
   const bool is_results = json.is_object() && json.contains("format") && json.contains("runs");

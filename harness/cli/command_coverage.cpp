@@ -40,8 +40,8 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
   add_missing_evidence_reasons(rows);
   if (!options.word.empty()) {
-    const auto file = results_path(options.word);
-    if (read_if_results(file).is_null())
+    const auto file = results_file_path(options.word);
+    if (read_json_if_results(file).is_null())
       throw InputError(file.string() + ": expected results (trammel run or trammel report)");
     const results::Results results = load_results(file);
     if (!results.missing.empty()) std::cerr << options.word << ": " << results.missing << '\n';

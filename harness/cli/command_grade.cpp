@@ -25,7 +25,7 @@ using results::Grade;
 
 /// Returns the reason for a grade other than `agrees` and `off`: the reason of the run, or else the
 /// message of a check without a computed value.
-std::string reason_of(const results::Run& run, Grade grade) {
+std::string reason_of_grade(const results::Run& run, Grade grade) {
   if (!run.reason.empty()) return run.reason;
   for (const results::Check& check : run.checks)
     if (grade == Grade::not_given || check.verdict == Verdict::error)
@@ -36,12 +36,12 @@ std::string reason_of(const results::Run& run, Grade grade) {
 /// Prints a row for each run with the decisive check, then the number of runs with each grade.
 void print_grades(const std::vector<results::Run>& runs) {
   std::vector<Column> columns = {"grade", "case", ">given", {"time_s", "time [s]", 2}};
-  std::ranges::move(check_columns(), std::back_inserter(columns));
+  std::ranges::move(columns_of_checks(), std::back_inserter(columns));
   Rows table(columns);
   std::map<Grade, std::size_t> counts;
   std::map<std::string, std::vector<std::string>> reasons;  // names of runs by reason
   for (const results::Run& run : runs) {
-    const Grade grade = results::grade_of(run);
+    const Grade grade = results::grade_of_run(run);
     ++counts[grade];
     const auto missing = std::ranges::count_if(run.checks, [](const auto& check) {
       return check.verdict == Verdict::not_given || check.verdict == Verdict::error;
@@ -54,7 +54,7 @@ void print_grades(const std::vector<results::Run>& runs) {
     if (grade == Grade::agrees || grade == Grade::off)
       std::ranges::move(check_cells(*results::decisive_check(run)), std::back_inserter(row));
     else
-      reasons[printable(reason_of(run, grade), 160)].push_back(name);
+      reasons[printable(reason_of_grade(run, grade), 160)].push_back(name);
     table.add(std::move(row));
   }
   table.print(std::cout);
@@ -116,7 +116,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   }
   require_uninterrupted(found.runs);
   const bool failure = std::ranges::any_of(
-      found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
+      found.runs, [](const results::Run& one) { return is_failure(results::grade_of_run(one)); });
   return failure ? 1 : 0;
 }
 

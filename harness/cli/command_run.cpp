@@ -63,7 +63,7 @@ Selection load(const std::vector<fs::path>& files, const Catalogue& catalogue) {
   return selection;
 }
 
-void require_distinct(const std::vector<Case>& cases) {
+void require_distinct_cases(const std::vector<Case>& cases) {
   std::map<std::string, std::string> seen;
   for (const Case& test_case : cases) {
     const auto [entry, fresh] = seen.emplace(test_case.id(), test_case.file.string());
@@ -115,14 +115,14 @@ void print_run_errors(const std::vector<Run>& runs) {
 
 /// Returns true if all runs were refused because of invalid input, and prints their errors. The
 /// command then leaves earlier results unchanged.
-bool report_if_all_refused(const std::vector<Run>& runs) {
+bool print_errors_if_all_refused(const std::vector<Run>& runs) {
   const auto is_refused = [](const Run& run) { return run.fault == results::Fault::input; };
   if (runs.empty() || !std::ranges::all_of(runs, is_refused)) return false;
   print_run_errors(runs);
   return true;
 }
 
-void require_no_variant(const std::string& option, const std::string& name) {
+void reject_variant_option(const std::string& option, const std::string& name) {
   if (!option.empty())
     throw InputError("--variant: expected a name of a case without a variant (got '" + name + "')");
 }
@@ -137,7 +137,7 @@ Selection select(const CommandOptions& options) {
   for (const std::string& word : options.words) {
     const auto [name, variant] = split_case_name(word);
     const fs::path file = catalogue.find_case(name);
-    if (!variant.empty()) require_no_variant(options.variant, word);
+    if (!variant.empty()) reject_variant_option(options.variant, word);
     if (variant.empty() || !chosen.contains(file)) files.push_back(file);
     if (!variant.empty()) chosen[file].push_back(variant);
   }
@@ -147,7 +147,7 @@ Selection select(const CommandOptions& options) {
     for (Case& test_case : catalogue.load(options.labels, options.any_labels))
       if (!contains(selection.cases, test_case.id(), &Case::id))
         selection.cases.push_back(std::move(test_case));
-  require_distinct(selection.cases);
+  require_distinct_cases(selection.cases);
   require_variants(selection.cases, options.variant);
   return selection;
 }
@@ -186,7 +186,7 @@ bool call_in_processes(const std::vector<std::function<void()>>& work, unsigned 
 
 bool is_results_file(const std::string& name) {
   try {
-    return !read_if_results(results_path(name)).is_null();
+    return !read_json_if_results(results_file_path(name)).is_null();
   } catch (const InputError&) {
     return false;  // the error is reported when the file is read as a case
   }
@@ -243,7 +243,7 @@ void present(const CommandOptions& options, const fs::path& page) {
 /// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
   std::vector<fs::path> files;
-  std::ranges::transform(options.words, std::back_inserter(files), results_path);
+  std::ranges::transform(options.words, std::back_inserter(files), results_file_path);
   if (files.size() > 1)
     for (const auto& file : files)
       if (const auto fault = find_schema_fault(read_json(file), "results"))
@@ -347,7 +347,7 @@ std::pair<std::string, std::string> split_case_name(const std::string& name) {
 
 std::pair<Case, std::string> load_case_variant(const std::string& name, const std::string& option) {
   const auto [file, variant] = split_case_name(name);
-  if (!variant.empty()) require_no_variant(option, name);
+  if (!variant.empty()) reject_variant_option(option, name);
   return {load_named_case(file), option + variant};
 }
 
@@ -374,7 +374,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   exit_on_signals(kInterrupted);
   const References references;
   std::vector<Run> computed = compute(selection, references, options);
-  if (report_if_all_refused(computed)) return 2;
+  if (print_errors_if_all_refused(computed)) return 2;
   const results::Results results = collect_results(std::move(computed), selection.cases, references,
                                                    store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
@@ -417,7 +417,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_uninterrupted(computed);
-  if (report_if_all_refused(computed)) return 2;
+  if (print_errors_if_all_refused(computed)) return 2;
   results::Results results = collect_results(std::move(computed), selection.cases, references,
                                              store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;

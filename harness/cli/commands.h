@@ -93,10 +93,10 @@ Command export_command, solve_command, grade_command;
                                                              const std::string& option = "");
 
 /// Returns the results file for a path: the path itself, or results.json if the path is a folder.
-[[nodiscard]] std::filesystem::path results_path(const std::string& name);
+[[nodiscard]] std::filesystem::path results_file_path(const std::string& name);
 /// Returns the JSON of a results file, or null if the file contains no results.
 /// @throws InputError  if a file named *.json cannot be read
-[[nodiscard]] Json read_if_results(const std::filesystem::path& file);
+[[nodiscard]] Json read_json_if_results(const std::filesystem::path& file);
 
 /// Returns the folder of stored computations: `store` if it is not empty, else OUT/store.
 /// @throws InputError  if OUT/store is a symbolic link, which could lead out of OUT.

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   close(null);
   // Memory of large matrices is kept for reuse instead of being returned to the system.
   for (const int threshold : {M_MMAP_THRESHOLD, M_TRIM_THRESHOLD}) mallopt(threshold, 1 << 30);
-  trammel::harness::set_out_of_memory_exit(2, "trammel: expected a machine with more memory\n");
+  trammel::harness::set_exit_on_out_of_memory(2, "trammel: expected a machine with more memory\n");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(
       arguments,

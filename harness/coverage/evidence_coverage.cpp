@@ -142,7 +142,7 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
 
 /// Returns the name of the coverage row of a quantity, such as "modes: frequency_Hz"; empty if the
 /// quantity is not defined for the analysis.
-std::string quantity_row(const std::string& quantity, const std::string& analysis) {
+std::string coverage_row_name(const std::string& quantity, const std::string& analysis) {
   const auto* definition = results::find_quantity_definition(quantity, analysis);
   return definition == nullptr ? "" : analysis + ": " + definition->name;
 }
@@ -150,7 +150,7 @@ std::string quantity_row(const std::string& quantity, const std::string& analysi
 class Coverage {
  public:
   Coverage() {
-    for (const std::string& feature : features_of_schema()) add("key", feature);
+    for (const std::string& feature : case_features_of_schema()) add("key", feature);
     for (const auto& definition : results::quantity_definitions())
       for (const std::string& analysis : definition.analyses)
         add("quantity", analysis + ": " + definition.name);
@@ -164,7 +164,7 @@ class Coverage {
       const std::string kind = kind_of(check, document, references);
       if (kind.empty()) continue;
       kinds.insert(kind);
-      const std::string quantity = quantity_row(check.quantity, analysis);
+      const std::string quantity = coverage_row_name(check.quantity, analysis);
       if (!quantity.empty()) add("quantity", quantity, {kind});
     }
     const CaseFeatures features = features_of(document.value());
@@ -199,7 +199,7 @@ bool means(const std::string& stated, const std::string& feature) {
 
 }  // namespace
 
-CaseFeatures features_of_schema() {
+CaseFeatures case_features_of_schema() {
   return FeatureWalk().run(nullptr);
 }
 
@@ -247,7 +247,7 @@ void count_quantity_runs(const results::Results& results, std::vector<CoverageRo
       if (check.verdict == results::Verdict::pass) judged.insert(check.quantity);
     for (const auto& item : run.quantities) {
       auto& [series, with_check] =
-          counts[quantity_row(item.first, results.case_info(run.case_id).analysis)];
+          counts[coverage_row_name(item.first, results.case_info(run.case_id).analysis)];
       ++series;
       with_check += judged.count(item.first) > 0 ? 1 : 0;
     }

@@ -18,7 +18,7 @@ namespace trammel::harness {
 using CaseFeatures = std::set<std::string>;
 
 /// Returns all features that a case can use.
-[[nodiscard]] CaseFeatures features_of_schema();
+[[nodiscard]] CaseFeatures case_features_of_schema();
 
 /// Returns the features used by a document with all patches applied, which satisfies the schema.
 [[nodiscard]] CaseFeatures features_of(const Json& document);

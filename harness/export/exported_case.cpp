@@ -29,18 +29,18 @@ JsonView analysis_place(const Document& document) {
 
 /// Returns true for analyses of the manipulator along a path. Their export contains the manipulator
 /// unchanged, and a description of its bodies and joints.
-bool is_of_mechanism(const std::string& kind) {
+bool exports_mechanism(const std::string& kind) {
   return kind == "kinematics" || kind == "inverse-dynamics" || kind == "forward-dynamics" ||
          kind == "elastodynamics";
 }
 
 /// Returns true for the analysis of a neural network whose samples are stated in the case. Such a
 /// case has no model.
-bool is_of_samples(const Document& document) {
+bool has_stated_samples(const Document& document) {
   return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
 }
 
-void require_exportable(const Document& document) {
+void require_exportable_case(const Document& document) {
   constexpr std::array kinds = {"statics",      "buckling", "modes",    "large-statics",
                                 "large-motion", "harmonic", "transient"};
   const JsonView place = analysis_place(document);
@@ -197,7 +197,7 @@ Json mechanism_json(const CaseModel& case_model) {
 
 /// Returns the bodies, joints and path of the mechanism. For elastodynamics, the result includes
 /// the elastic model at the first point of the path.
-Json mechanism_of(const Document& document) {
+Json mechanism_of_case(const Document& document) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.manipulator) throw analysis_place(document).error("expected a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
@@ -212,7 +212,7 @@ Json mechanism_of(const Document& document) {
 
 /// Lists the named nodes of a large motion under the key "nodes" if this key is absent. Without
 /// this list, the exported case would also record nodes that have no name in the original case.
-void name_recorded_nodes(const solver::Model& model, Json& analysis) {
+void list_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();
   for (const solver::Node& node : model.nodes)
@@ -240,7 +240,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
 }
 
 ExportedScene exported_scene(const Document& document) {
-  require_exportable(document);
+  require_exportable_case(document);
   CaseModel case_model = read_case_model(document);
   return rethrow_as_input_error(document, [&] {
     if (document.value().contains("effects"))
@@ -262,16 +262,16 @@ Json export_case(const Case& given, const ExportChoice& choice) {
   const Json& whole = document.value();
   Json exported = {{"id", given.id()}, {"title", given.title()}};
   if (whole.contains("timeout_s")) exported["timeout_s"] = whole["timeout_s"];
-  const bool of_mechanism = is_of_mechanism(analysis_kind(document));
+  const bool of_mechanism = exports_mechanism(analysis_kind(document));
   ExportedScene scene;
-  if (of_mechanism || is_of_samples(document)) {
+  if (of_mechanism || has_stated_samples(document)) {
     for (const char* key : {"model", "analysis", "effects"})
       if (whole.contains(key)) exported[key] = whole[key];
   } else {
     scene = exported_scene(document);
     exported["model"] = plain_model(document, scene);
     exported["analysis"] = stated_analysis(document, scene.effects);
-    name_recorded_nodes(scene.model, exported["analysis"]);
+    list_recorded_nodes(scene.model, exported["analysis"]);
   }
   const bool is_base = choice.variant == kBaseVariant;
   Json& about = exported["export"] = {
@@ -283,7 +283,7 @@ Json export_case(const Case& given, const ExportChoice& choice) {
       {"quantities", export_quantities(document, checks_of_variant(document, choice.variant, given),
                                        scene.model)}};
   if (!choice.sweep.empty()) about["sweep"] = choice.sweep;
-  if (of_mechanism) about["mechanism"] = mechanism_of(document);
+  if (of_mechanism) about["mechanism"] = mechanism_of_case(document);
   return exported;
 }
 

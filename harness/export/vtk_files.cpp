@@ -45,8 +45,8 @@ struct Grid {
 };
 
 /// Writes a PVD file and the VTU files that it lists.
-void write_collection(const std::filesystem::path& folder, const std::string& name,
-                      const std::vector<Grid>& grids) {
+void write_vtk_collection(const std::filesystem::path& folder, const std::string& name,
+                          const std::vector<Grid>& grids) {
   if (grids.empty()) return;
   std::string sets;
   for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -106,9 +106,9 @@ void write_vtk(const results::Run& run, const std::filesystem::path& folder) {
                      pose.time_s.value_or(number_of(grids))});
   }
   const std::string name = run.case_id + "-" + run.variant;
-  write_collection(folder, name + "-shapes", shapes);
-  write_collection(folder, name + "-poses", poses);
-  write_collection(folder, name + "-motion", moments);
+  write_vtk_collection(folder, name + "-shapes", shapes);
+  write_vtk_collection(folder, name + "-poses", poses);
+  write_vtk_collection(folder, name + "-motion", moments);
 }
 
 }  // namespace trammel::harness

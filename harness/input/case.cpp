@@ -57,7 +57,7 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
   document.apply_patch(file.string(), "", outermost ? json : select_inherited_keys(json));
 }
 
-void check_variant_names(const Case& given) {
+void validate_variant_names(const Case& given) {
   const JsonView root(given.document);
   for (const auto& [name, variant] : root.entries("variants"))
     if (name == kBaseVariant)
@@ -188,7 +188,7 @@ Case load_case(const fs::path& file, const Catalogue& catalogue) {
   loaded.file = file;
   apply_with_bases(loaded.document, file, catalogue, {});
   loaded.document.validate("case");
-  check_variant_names(loaded);
+  validate_variant_names(loaded);
   check_indicators(loaded);
   return loaded;
 }

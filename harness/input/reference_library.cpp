@@ -133,7 +133,7 @@ CitedReference References::read(const std::string& place) const {
   if (const auto schema_error = find_schema_fault(json, "reference"))
     throw InputError(file, schema_error->pointer, schema_error->message);
   try {
-    const nlohmann::json merged = references::with_common_keys(
+    const nlohmann::json merged = references::add_common_keys(
         common ? nlohmann::json(json.front()) : nlohmann::json(), nlohmann::json(json.back()));
     CitedReference cited{references::read_reference(merged, file, id), {}};
     cited.source = source(cited.reference.source, file);

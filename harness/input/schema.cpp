@@ -42,8 +42,8 @@ bool is_whole(const Json& value) {
 
 /// Returns true if a JSON value has a type that the schema rule allows.
 bool has_type(const Json& value, const SchemaRule& rule) {
-  return keyword(rule, "type") == nullptr || allows_type(rule, value.type_name()) ||
-         (is_whole(value) && allows_type(rule, "integer"));
+  return keyword(rule, "type") == nullptr || rule_allows_type(rule, value.type_name()) ||
+         (is_whole(value) && rule_allows_type(rule, "integer"));
 }
 
 /// Returns true if a JSON value satisfies one keyword of a schema, such as "minimum". The type and

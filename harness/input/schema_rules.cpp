@@ -41,7 +41,7 @@ const SchemaRule& resolve_ref(const SchemaRule& root, const SchemaRule& rule) {
                      *Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
 }
 
-bool allows_type(const SchemaRule& rule, const char* type) {
+bool rule_allows_type(const SchemaRule& rule, const char* type) {
   const SchemaRule* stated = keyword(rule, "type");
   if (stated == nullptr) return false;
   const auto is_type = [&](const SchemaRule& value) { return value == type; };
@@ -119,13 +119,13 @@ std::string describe_rule(const SchemaRule& root, const SchemaRule& rule) {
     for (const SchemaRule& choice : choices->GetArray()) values.push_back(describe_choice(choice));
     return join(values, "or");
   }
-  const char* or_null = allows_type(rule, "null") ? " or null" : "";
-  if (allows_type(rule, "integer")) return "a whole number" + limits(rule);
-  if (allows_type(rule, "number")) return "a number" + limits(rule) + or_null;
-  if (allows_type(rule, "array")) return describe_array(root, rule);
-  if (allows_type(rule, "boolean")) return "true or false";
-  if (allows_type(rule, "object")) return std::string("an object") + or_null;
-  if (!allows_type(rule, "string")) return "something else";
+  const char* or_null = rule_allows_type(rule, "null") ? " or null" : "";
+  if (rule_allows_type(rule, "integer")) return "a whole number" + limits(rule);
+  if (rule_allows_type(rule, "number")) return "a number" + limits(rule) + or_null;
+  if (rule_allows_type(rule, "array")) return describe_array(root, rule);
+  if (rule_allows_type(rule, "boolean")) return "true or false";
+  if (rule_allows_type(rule, "object")) return std::string("an object") + or_null;
+  if (!rule_allows_type(rule, "string")) return "something else";
   const bool has_pattern = keyword(rule, "pattern") != nullptr;
   return has_pattern ? "a name of letters, digits, '-', '_' and '.'" : "text";
 }
@@ -162,7 +162,7 @@ std::string got_keys(const Json& object) {
   return " (got " + (keys.empty() ? "none" : all_quoted(keys, "and")) + ")";
 }
 
-std::string pointer_to(const std::vector<std::string>& path) {
+std::string join_pointer(const std::vector<std::string>& path) {
   JsonPointer pointer;
   for (const std::string& step : path) pointer /= step;
   return pointer.to_string();
@@ -188,14 +188,14 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
     if (allowed.empty() || known) continue;
     path.push_back(item.key());
     const std::string guess = did_you_mean(item.key(), allowed);
-    return {pointer_to(path),
+    return {join_pointer(path),
             "unknown key" + (guess.empty() ? "; expected " + all_quoted(allowed, "or") : guess)};
   }
   std::string wanted = "another object";
   for (const SchemaRule* rule : rules) {
     for (const std::string& key : find_required_keys(object, *rule)) {
       if (object.contains(key)) continue;
-      return {pointer_to(path), "expected the key " + quoted(key) + got_keys(object)};
+      return {join_pointer(path), "expected the key " + quoted(key) + got_keys(object)};
     }
     const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
     if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {
@@ -209,7 +209,7 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
                got_keys(object) + (one && object.size() > max_count ? "; null removes a key" : "");
     }
   }
-  return {pointer_to(path), "expected " + wanted};
+  return {join_pointer(path), "expected " + wanted};
 }
 
 SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
@@ -225,8 +225,8 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
       suffix = " without duplicates";
   }
   if (broken.value->is_string()) suffix = did_you_mean(broken.value->get<std::string>(), choices);
-  return {pointer_to(broken.path), "expected " + join(wanted, "or") + " (got " +
-                                       describe_value(*broken.value) + ")" + suffix};
+  return {join_pointer(broken.path), "expected " + join(wanted, "or") + " (got " +
+                                         describe_value(*broken.value) + ")" + suffix};
 }
 
 }  // namespace
@@ -234,7 +234,7 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
 SchemaFault describe_violation(const SchemaRule& schema, const BrokenRules& broken) {
   Rules of_objects;
   std::ranges::copy_if(broken.rules, std::back_inserter(of_objects),
-                       [](const SchemaRule* rule) { return allows_type(*rule, "object"); });
+                       [](const SchemaRule* rule) { return rule_allows_type(*rule, "object"); });
   if (!broken.value->is_object() || of_objects.empty()) return explain_value(schema, broken);
   return explain_object(*broken.value, broken.path, of_objects);
 }

@@ -51,7 +51,7 @@ using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool,
 [[nodiscard]] const SchemaRule& resolve_ref(const SchemaRule& root, const SchemaRule& rule);
 
 /// Returns true if the keyword "type" of a schema rule allows the given JSON type.
-[[nodiscard]] bool allows_type(const SchemaRule& rule, const char* type);
+[[nodiscard]] bool rule_allows_type(const SchemaRule& rule, const char* type);
 
 /// JSON value and the schema rules that it violates. For anyOf, these are the rules of all options.
 struct BrokenRules {

@@ -44,7 +44,7 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
 }
 
 /// Returns the observed order of convergence from the errors on two refinement levels.
-double order_of_errors(double coarse, double fine, double h_coarse, double h_fine) {
+double order_of_two_errors(double coarse, double fine, double h_coarse, double h_fine) {
   return std::log(coarse / fine) / std::log(h_coarse / h_fine);
 }
 
@@ -174,7 +174,7 @@ class ConvergenceStudy {
       if (!series_.is_error && *reference != 0) error_[k] = relative(v_[k], *reference);
     }
     for (std::size_t k = 1; k < count(); ++k)
-      order_[k] = series_.exact ? order_of_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])
+      order_[k] = series_.exact ? order_of_two_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])
                                 : observed_[k];
   }
 

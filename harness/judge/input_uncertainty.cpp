@@ -111,7 +111,7 @@ void compare(const Comparison& c, ValidationVerdict& v) {
 
 /// Returns the index after the last consecutive entry whose computed value equals that of entry
 /// `first`.
-std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) {
+std::size_t end_of_equal_values(std::span<const Comparison> row, std::size_t first) {
   const double value = *row[first].simulation;
   std::size_t end = first + 1;
   while (end < row.size() &&
@@ -158,7 +158,7 @@ std::string describe_unequal_references(const Spread& spread, std::size_t first,
 
 void evaluate_validation_row(std::span<Comparison> row) {
   for (std::size_t first = 0; first < row.size();) {
-    const std::size_t end = end_of_repeated(row, first);
+    const std::size_t end = end_of_equal_values(row, first);
     const Spread spread = printed(row.subspan(first, end - first));
     for (Comparison& c : row.subspan(first, end - first)) {
       c.difference = *c.simulation - *c.expected;

@@ -75,8 +75,8 @@ GrnnSamples read_samples(const JsonView& samples) {
   return read;
 }
 
-PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
-                            const CaseModel& case_model) {
+PathSamples create_path_samples(const solver::RigidManipulator& manipulator,
+                                const CaseModel& case_model) {
   const auto count = static_cast<solver::Index>(case_model.motion.size());
   PathSamples result;
   GrnnSamples& samples = result.samples;
@@ -340,7 +340,7 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   if (!case_model.path) throw analysis.error("expected a model with 'trajectory', or 'samples'");
   StepResult result;
-  PathSamples path = samples_of_path(manipulator, case_model);
+  PathSamples path = create_path_samples(manipulator, case_model);
   const auto flexible = analysis.find("flexible_links");
   if (flexible && path.outcome.solved()) sample_flexible_motion(*flexible, case_model, path);
   result.outcome = path.outcome;

@@ -92,8 +92,8 @@ Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector
   return solver::RegularizedMass(system).solve(momentum);
 }
 
-InitialState read_initial(const JsonView& transient, const solver::System& system,
-                          solver::Outcome& outcome) {
+InitialState read_initial_state(const JsonView& transient, const solver::System& system,
+                                solver::Outcome& outcome) {
   const auto initial = transient.find("initial_state");
   if (!initial || initial->json() == "at-rest") return {};
   if (initial->json() == "static-equilibrium") {
@@ -146,7 +146,7 @@ class Motion {
     history_.counters = system_.counters;
     if (damped_) history_.counters.add(solver::Effect::damping, 1);
     history_.time = sample_times(transient_);
-    initial_ = read_initial(transient_, system_, history_.outcome);
+    initial_ = read_initial_state(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
     for (const double t : history_.time) {
       const bool integrated = !uses_modal_superposition(transient_) && t > history_.time.front();
@@ -337,8 +337,8 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
   return state;
 }
 
-void record_peaks(const MotionHistory& motion, const std::vector<Output>& outputs,
-                  const Eigen::MatrixXd& values, Recorder& record) {
+void record_peak_values(const MotionHistory& motion, const std::vector<Output>& outputs,
+                        const Eigen::MatrixXd& values, Recorder& record) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const solver::Peak found =
         solver::peak(motion.time, values.row(static_cast<solver::Index>(i)).transpose());
@@ -415,7 +415,7 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
     energy.record(kinetic, strain, kinetic + strain, record);
     warn_of_rotation(largest_rotation(system, system.T * motion.q.col(sample)), result.warnings);
   }
-  record_peaks(motion, outputs, values, record);
+  record_peak_values(motion, outputs, values, record);
   const bool is_free = system.load.isZero(0) && !analysis.has("rotating_frame");
   if (is_free && energy.largest_kinetic_energy() > 0)
     record.add("energy_drift", energy.relative_drift());

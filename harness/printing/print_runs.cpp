@@ -74,7 +74,7 @@ void print_quantities(const results::Run& run) {
 
 }  // namespace
 
-std::vector<Column> check_columns() {
+std::vector<Column> columns_of_checks() {
   return {"verdict",           "check",       "quantity", {"computed", "", 8},
           {"expected", "", 8}, ">difference", ">allowed"};
 }
@@ -99,7 +99,7 @@ void print_run(const results::Run& run, bool with_values) {
   if (run.errors && !run.errors->search.empty()) print_tried_settings(*run.errors);
   if (with_values || run.checks.empty() || run.errors) print_quantities(run);
   if (run.checks.empty()) return;
-  Rows table(check_columns());
+  Rows table(columns_of_checks());
   std::string messages;
   for (const results::CheckGroup& group : results::group_checks(run)) {
     const results::Check& check = group.worst();

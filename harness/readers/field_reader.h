@@ -178,7 +178,7 @@ template <class T, class Check = void (*)(const JsonView&, const T&)>
 void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure);
 
 /// Returns the nodes on an edge, without duplicates.
-[[nodiscard]] std::vector<solver::Index> nodes_of(const Edge& edge);
+[[nodiscard]] std::vector<solver::Index> nodes_on_edge(const Edge& edge);
 
 /// Reads a traction or normal stress on an edge of a plate.
 void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::Model& structure);

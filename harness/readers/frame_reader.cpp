@@ -148,7 +148,7 @@ void support_edge(const JsonView& place, const solver::Support& all, const Edge&
     throw place.error(
         "an edge cannot support 'rotation', because nodes of plates have no rotation; expected "
         "'x' or 'y'");
-  for (const solver::Index node : nodes_of(edge)) {
+  for (const solver::Index node : nodes_on_edge(edge)) {
     solver::Support support{all.name, node, all.fixed};
     for (const solver::Support& other : model.supports) {
       if (other.node != node) continue;

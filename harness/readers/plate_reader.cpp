@@ -223,7 +223,7 @@ void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& str
     symbols.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
 }
 
-std::vector<solver::Index> nodes_of(const Edge& edge) {
+std::vector<solver::Index> nodes_on_edge(const Edge& edge) {
   std::vector<solver::Index> nodes;
   std::set<solver::Index> seen;
   for (const Edge::Piece& piece : edge.pieces)

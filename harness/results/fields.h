@@ -183,16 +183,16 @@ T from_json(const Json& json) {
 namespace detail {
 
 template <class Struct, class Member>
-bool is_omitted(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                Form form) {
+bool is_omitted_field(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                      Form form) {
   if (field.presence == Presence::required) return false;
   return (field.presence == Presence::stored && form == Form::summary) ||
          (field.presence == Presence::store_only && form != Form::store) ||
          is_empty(value.*field.member);
 }
 template <class Struct, class Member>
-bool is_omitted(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                Form) {
+bool is_omitted_field(const UsualField<Struct, Member>& field,
+                      const std::type_identity_t<Struct>& value, Form) {
   return value.*field.member == field.usual(value);
 }
 
@@ -214,7 +214,7 @@ Json object_to_json(const T& value, Form form) {
   // Reserves memory, because a growing vector copies all its elements.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
-    if (!is_omitted(field, value, form))
+    if (!is_omitted_field(field, value, form))
       members.emplace_back(field.key, to_json(value.*field.member, form));
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);

@@ -7,7 +7,7 @@
 
 namespace trammel::results {
 
-Grade grade_of(const Run& run) {
+Grade grade_of_run(const Run& run) {
   const auto has = [&](Verdict verdict) {
     return harness::contains(run.checks, verdict, &Check::verdict);
   };

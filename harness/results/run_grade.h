@@ -29,7 +29,7 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
     Grade::agrees, Grade::off,          Grade::broken,    Grade::crashed,    Grade::timed_out,
     Grade::cannot, Grade::not_exported, Grade::not_given, Grade::not_judged, Grade::not_run};
 
-[[nodiscard]] Grade grade_of(const Run& run);
+[[nodiscard]] Grade grade_of_run(const Run& run);
 /// Returns the grade as text: "agrees", "off", "broken", "crashed", "timed out", "cannot", ...
 [[nodiscard]] std::string to_string(Grade grade);
 /// Returns true if the grade counts against the code: off, broken, crashed or timed out.

@@ -85,7 +85,7 @@ bool selects(const JsonView& interpretation, const Run& run) {
   return contains(variants, run.variant);
 }
 
-results::Number metric_of(const std::string& metric, CheckResult check_result) {
+results::Number metric_of_check(const std::string& metric, CheckResult check_result) {
   if (metric == "value") return check_result.computed;
   if (!check_result.computed || !check_result.expected) return std::nullopt;
   if (*check_result.expected == 0 && metric != "difference") return std::nullopt;
@@ -105,7 +105,7 @@ void add_checks(const JsonView& interpretation, const Run& run, Interpretation& 
       const bool chosen = check_result.index && contains(index, *check_result.index);
       if (!chosen) continue;
     }
-    const auto value = metric_of(found.metric, check_result);
+    const auto value = metric_of_check(found.metric, check_result);
     if (!run.is_solved() || !value || !std::isfinite(*value)) {
       found.incomplete = true;
       continue;

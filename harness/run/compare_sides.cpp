@@ -168,7 +168,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     found.remarks.push_back("missing from " + sides + ": " + join(missing, "and"));
 }
 
-std::vector<std::size_t> count_from_one(std::vector<std::size_t> numbers) {
+std::vector<std::size_t> convert_to_one_based(std::vector<std::size_t> numbers) {
   for (std::size_t& number : numbers) ++number;
   return numbers;
 }
@@ -190,14 +190,14 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
       largest = std::max(largest, std::abs(first));
       if (s == 1) {
         rows.emplace_back();
-        rows.back().modes = {count_from_one(match.a)};
+        rows.back().modes = {convert_to_one_based(match.a)};
         rows.back().values = {first};
         rows.back().last = {Number()};
         rows.back().errors = {runs.front()->error_half_width("frequency_Hz", match.a.front())};
         rows.back().alike = {1.0};
       }
       ComparedModes& found = rows.at(row++);
-      found.modes.push_back(count_from_one(match.b));
+      found.modes.push_back(convert_to_one_based(match.b));
       const bool there = !match.b.empty();
       const double low = there ? b.frequency[match.b.front()] : 0;
       const double high = there ? b.frequency[match.b.back()] : 0;
@@ -217,7 +217,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
 
 /// Compares the frequencies of modes with similar shapes instead of equal numbers, if frequencies
 /// have changed or if variants are compared.
-void match_by_shape(const Runs& runs, bool are_variants, ComparedRun& found) {
+void match_modes_by_shape(const Runs& runs, bool are_variants, ComparedRun& found) {
   const auto by_number = [](const ComparedNumber& number) {
     return number.quantity == "frequency_Hz" || number.quantity == "frequency_gap";
   };
@@ -273,7 +273,7 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   found.name = name;
   found.info = std::move(info);
   if (are_variants || !are_bit_identical(runs)) add_numbers(runs, labels, found);
-  match_by_shape(runs, are_variants, found);
+  match_modes_by_shape(runs, are_variants, found);
   if (!are_variants) add_verdicts(runs, labels, found);
   found.changed = !found.remarks.empty();
   const auto count = [&](const ComparedValue& value) {

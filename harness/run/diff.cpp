@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-std::string entry_name(const results::Check& check) {
+std::string check_entry_name(const results::Check& check) {
   std::string name = check.name;
   if (!check.quantity.empty()) name += " " + check.quantity;
   if (check.index && check.expected && check.against_variant.empty())
@@ -46,7 +46,7 @@ std::string name_of(const results::Run& run) {
 void add_entries(const results::Run& run, const std::string& name, Entries& entries) {
   entries.emplace(name, Entry{to_string(run.status), {}, 0, &run, nullptr});
   for (const results::Check& check : run.checks) {
-    const std::string common = name + " " + entry_name(check);
+    const std::string common = name + " " + check_entry_name(check);
     std::string unique = common;
     for (int n = 2; entries.count(unique) > 0; ++n) unique = fmt::format("{} #{}", common, n);
     entries.emplace(unique, Entry{to_string(check.verdict), check.computed,

@@ -37,11 +37,11 @@ void reduce_drawing_precision(results::Drawing& drawing) {
 }
 
 /// Adds the numbers, texts and short lists at `place` in the model to the inputs of a case.
-void add_inputs(const Document& document, const JsonPointer& place, results::CaseInfo& info) {
+void add_case_inputs(const Document& document, const JsonPointer& place, results::CaseInfo& info) {
   constexpr std::size_t kMaxLength = 60, kMaxInputs = 60;
   const Json& json = document.value().at(place);
   if (json.is_object())
-    for (const auto& item : json.items()) add_inputs(document, place / item.key(), info);
+    for (const auto& item : json.items()) add_case_inputs(document, place / item.key(), info);
   if (json.is_object() || info.inputs.size() == kMaxInputs) return;
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
   if (text.size() > kMaxLength) return;
@@ -67,7 +67,7 @@ results::CaseInfo case_info(const Case& given) {
   if (!is_in_catalogue(given.file))
     info.file = std::filesystem::absolute(given.file).lexically_normal().string();
   const Document base = patched(given, kBaseVariant);
-  if (base.value().contains("model")) add_inputs(base, JsonPointer("/model"), info);
+  if (base.value().contains("model")) add_case_inputs(base, JsonPointer("/model"), info);
   return info;
 }
 

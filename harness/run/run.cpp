@@ -42,7 +42,7 @@ struct Task {
 
 /// Returns true if the run ended without an answer, for example by a crash. Such a run is not
 /// stored, because a later call may succeed.
-bool lacks_answer(const Run& run) {
+bool run_lacks_answer(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;
 }
@@ -150,7 +150,7 @@ void compare_for_validation(Task& task, const References& references) {
   if (task.run.uncertainty) task.run.cost.uncertainty_wall_s = watch.wall_s();
 }
 
-std::string answer_of(Task task, const RunOptions& options) {
+std::string answer_of_task(Task task, const RunOptions& options) {
   if (options.solver.compute) {
     run_guarded(task.run, [&] {
       options.solver.compute(*task.owner, task.run.variant, task.document, task.checks,
@@ -235,7 +235,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
     work.push_back(
-        {[&options, run = task] { return answer_of(*run, options); },
+        {[&options, run = task] { return answer_of_task(*run, options); },
          options.solver.compute ? options.solver.time_limit_s : time_limit_s(task->document)});
   std::size_t done = tasks.size() - work.size();
   const auto show = [&] {
@@ -245,7 +245,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             record_ended_process(*task, outcome, options);
-                            if (!file.empty() && !lacks_answer(task->run)) {
+                            if (!file.empty() && !run_lacks_answer(task->run)) {
                               write_file(file, outcome.text);
                               task->run.stored = file.filename().string();
                             }
@@ -303,7 +303,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
       run.checks.back().verdict = verdict;
     }
   };
-  if (lacks_answer(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
+  if (run_lacks_answer(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
   if (run.status == Status::not_run) return leave_unjudged("interrupted", Verdict::not_run);
   if (run.status == Status::cannot || run.status == Status::not_exported)
     return leave_unjudged(to_string(run.status) + ": " + run.reason, Verdict::not_given);

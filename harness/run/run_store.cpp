@@ -32,7 +32,7 @@ bool failed(std::size_t result) {
   return ZSTD_isError(result) != 0;
 }
 
-std::string compressed(const std::string& bytes) {
+std::string compress_bytes(const std::string& bytes) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                      &ZSTD_freeCCtx);
   if (!context) throw std::bad_alloc();
@@ -50,7 +50,7 @@ std::string compressed(const std::string& bytes) {
 
 /// Returns the uncompressed contents of a file of the store.
 /// @throws std::runtime_error  for a truncated or damaged file.
-std::string uncompressed(const std::string& bytes) {
+std::string uncompress_bytes(const std::string& bytes) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   std::string out(size <= kMaxBytes ? size : 0, '\0');
   const std::size_t written = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
@@ -63,12 +63,12 @@ template <class Kept>
 std::string stored_bytes(const Kept& kept) {
   std::string bytes;
   Json::to_cbor(results::to_json(kept, results::Form::store), bytes);
-  return compressed(bytes);
+  return compress_bytes(bytes);
 }
 
 template <class Kept>
 Kept stored_from(const std::string& bytes) {
-  return results::from_json<Kept>(parse_cbor(uncompressed(bytes)));
+  return results::from_json<Kept>(parse_cbor(uncompress_bytes(bytes)));
 }
 
 bool are_unchanged(const std::map<std::string, std::string>& hashes, const References& references) {

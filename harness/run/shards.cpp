@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t number_from(const char* begin, const char* end) {
+std::size_t parse_number(const char* begin, const char* end) {
   std::size_t number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
   return error == std::errc() && stop == end ? number : 0;
@@ -72,8 +72,8 @@ Shard parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   Shard shard;
   if (slash != std::string::npos) {
-    shard.number = number_from(text.data(), text.data() + slash);
-    shard.count = number_from(text.data() + slash + 1, text.data() + text.size());
+    shard.number = parse_number(text.data(), text.data() + slash);
+    shard.count = parse_number(text.data() + slash + 1, text.data() + text.size());
   }
   constexpr std::size_t most = 100000;
   if (slash == std::string::npos || shard.number < 1 || shard.number > shard.count ||

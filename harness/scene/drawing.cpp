@@ -127,8 +127,8 @@ void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNod
   }
 }
 
-void draw_parts(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
-                Drawing& drawing) {
+void draw_model_parts(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
+                      Drawing& drawing) {
   draw_triangles(model, drawn, drawing);
   draw_rigid_bodies(model, drawn, drawing);
   draw_joints(model, is_manipulator, drawn, drawing);
@@ -136,13 +136,13 @@ void draw_parts(const solver::Model& model, bool is_manipulator, const DrawnNode
 
 }  // namespace
 
-void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing) {
+void draw_model_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing) {
   DrawnNodes all;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     all.mesh.push_back(i);
     all.number.push_back(static_cast<solver::Index>(i));
   }
-  draw_parts(model, is_manipulator, all, drawing);
+  draw_model_parts(model, is_manipulator, all, drawing);
 }
 
 Eigen::Vector2d displacement_at_fraction(const solver::FrameElement& element,
@@ -183,7 +183,7 @@ std::optional<Drawing> draw_model(const solver::System& system, bool is_manipula
   for (const std::size_t node : drawn.mesh)
     drawing.nodes.push_back(point_of(system.mesh.positions[node]));
   draw_members(system, drawn, drawing);
-  draw_parts(system.model, is_manipulator, drawn, drawing);
+  draw_model_parts(system.model, is_manipulator, drawn, drawing);
   draw_forces(system, drawn, drawing);
   if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   return drawing;
@@ -299,7 +299,7 @@ std::optional<Drawing> draw_initial_pose(
     }
     drawing.members.push_back({before, static_cast<int>(model.members[m].nodes[1])});
   }
-  draw_parts(model, is_manipulator, drawing);
+  draw_model_parts(model, is_manipulator, drawing);
   return drawing;
 }
 

@@ -21,7 +21,7 @@ using results::Drawing;
 inline constexpr std::size_t kMaxDrawnNodes = 4000;
 
 /// Adds triangles, rigid bodies and joints to a drawing that begins with all nodes of the model.
-void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
+void draw_model_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
 
 /// Draws the mesh of a model, with points inside elements, so that bent members look smooth. A fine
 /// mesh is drawn without the mid-side nodes of its six-node triangles. Returns nothing if the

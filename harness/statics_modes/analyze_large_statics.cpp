@@ -31,8 +31,8 @@ solver::large_motion::StaticPathOptions read_large_statics_options(const JsonVie
   return options;
 }
 
-void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record,
-                  std::vector<Warning>& warnings) {
+void record_path_point(const GeometricallyExactSystem& system, const PathPoint& point,
+                       Recorder& record, std::vector<Warning>& warnings) {
   record.add("load_factor", point.state.load);
   const ModelState solution{static_solution(system, point.state)};
   StateRecorder(system.model(), "large-statics").record(solution, record);
@@ -126,7 +126,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
          static_cast<double>(large_motion.follower_loads.size()), "",
          "statics does not detect flutter instability; 'vibration_modes' detects it"});
   for (const PathPoint& point : recorded_points) {
-    record_point(system, point, record, result.warnings);
+    record_path_point(system, point, record, result.warnings);
     if (vibrations > 0)
       record_vibration(system, point, vibrations, case_model.path || recorded_points.size() > 1,
                        result, record);

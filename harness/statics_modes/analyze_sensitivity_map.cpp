@@ -25,8 +25,8 @@ struct Reading {
   double largest = kNaN;
 };
 
-void record_curves(const std::string& name, const std::string& item,
-                   const std::vector<solver::Polyline>& curves, Recorder& record) {
+void record_map_curves(const std::string& name, const std::string& item,
+                       const std::vector<solver::Polyline>& curves, Recorder& record) {
   for (const solver::Polyline& curve : curves) {
     for (const Eigen::Vector2d& point : curve) {
       record.add(name + "_x_m", item, point.x());
@@ -131,10 +131,10 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     reading.center = at_center.derivative;
     readings.push_back(reading);
     if (positions) {
-      record_curves("boundary", item, solver::workspace_boundary(design.geometry, center.phi, 360),
-                    record);
-      record_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
-                    record);
+      record_map_curves("boundary", item,
+                        solver::workspace_boundary(design.geometry, center.phi, 360), record);
+      record_map_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
+                        record);
     }
     record.add_or_missing("center_frequency_Hz", "", reading.center_frequency);
     record.add_or_missing("center_" + quantity, "", reading.center);

@@ -199,8 +199,8 @@ struct ErrorNorm {
 
 /// Records the relative error norms with their estimated round-off errors. The estimate is the
 /// resolution of a double times cells^n, for an error of derivatives of order n.
-StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
-                        std::initializer_list<ErrorNorm> norms, Recorder& record) {
+StepResult record_error_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
+                              std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};
   if (draw) result.drawing = draw_model(solution.system, false);
   if (!solution.outcome.solved()) return result;
@@ -218,28 +218,28 @@ StepResult record_norms(const ManufacturedSolution& solution, solver::Index cell
 StepResult run_membrane(const JsonView& place, bool draw, Recorder& record) {
   const MembraneTest test = read_membrane(place);
   const auto [solution, errors] = run_membrane_test(test);
-  return record_norms(solution, test.cells, draw,
-                      {{"displacement_error", errors.displacement, 1},
-                       {"rotation_error", errors.rotation, 1},
-                       {"stress_error", errors.stress, 1},
-                       {"energy_error", errors.energy, 1}},
-                      record);
+  return record_error_norms(solution, test.cells, draw,
+                            {{"displacement_error", errors.displacement, 1},
+                             {"rotation_error", errors.rotation, 1},
+                             {"stress_error", errors.stress, 1},
+                             {"energy_error", errors.energy, 1}},
+                            record);
 }
 
 StepResult run_beam(const JsonView& place, bool draw, Recorder& record) {
   const BeamTest test = read_beam(place);
   const auto [solution, errors] = run_beam_test(test);
-  return record_norms(solution, test.cells, draw,
-                      {{"axial_displacement_error", errors.axial_displacement, 1},
-                       {"axial_force_error", errors.axial_force, 1},
-                       {"deflection_error", errors.deflection, 1},
-                       {"rotation_error", errors.rotation, 1},
-                       {"bending_moment_error", errors.bending_moment, 2},
-                       {"shear_force_error", errors.shear_force, 3},
-                       {"energy_error", errors.energy, 2},
-                       {"nodal_deflection_error", errors.nodal_deflection, 1},
-                       {"nodal_rotation_error", errors.nodal_rotation, 1}},
-                      record);
+  return record_error_norms(solution, test.cells, draw,
+                            {{"axial_displacement_error", errors.axial_displacement, 1},
+                             {"axial_force_error", errors.axial_force, 1},
+                             {"deflection_error", errors.deflection, 1},
+                             {"rotation_error", errors.rotation, 1},
+                             {"bending_moment_error", errors.bending_moment, 2},
+                             {"shear_force_error", errors.shear_force, 3},
+                             {"energy_error", errors.energy, 2},
+                             {"nodal_deflection_error", errors.nodal_deflection, 1},
+                             {"nodal_rotation_error", errors.nodal_rotation, 1}},
+                            record);
 }
 
 }  // namespace

@@ -259,13 +259,13 @@ results::CostStudy measure_study(const CostStudy& study, const CostOptions& opti
   if (!is_computed(baseline))
     throw cannot(study.settings[study.baseline], "a baseline", baseline.reason);
   time_settings(study, measured, options, references, done, all);
-  derive_ratios_and_front(measured);
+  derive_time_ratios_and_front(measured);
   measured.references = references.hashes();
   measured.wall_s = watch.wall_s();
   return measured;
 }
 
-void derive_ratios_and_front(results::CostStudy& measured) {
+void derive_time_ratios_and_front(results::CostStudy& measured) {
   const CostSetting baseline = measured.settings[measured.baseline];
   std::vector<std::string> titles;
   for (CostSetting& setting : measured.settings) {

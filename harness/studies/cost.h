@@ -44,7 +44,7 @@ struct CostOptions {
 
 /// Computes the times relative to the baseline setting, the Pareto front and the conclusion of a
 /// measured cost study.
-void derive_ratios_and_front(results::CostStudy& measured);
+void derive_time_ratios_and_front(results::CostStudy& measured);
 
 /// Returns the section "cost" of results.json, which contains the measured cost studies.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,

@@ -35,7 +35,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
 }
 
 /// Returns the index of the output to which a quantity of a cost study belongs.
-std::size_t output_number(const JsonView& study, const JsonView& place) {
+std::size_t index_of_output(const JsonView& study, const JsonView& place) {
   if (!place.has("output")) return 0;
   std::size_t number = 0;
   if (const auto outputs = study.find("outputs"))
@@ -56,7 +56,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonVie
     entry.statistic = place.get<std::string>("statistic", "");
     entry.index = place.indices("index");
     entry.is_error = place.get("is_error", false);
-    entry.output = output_number(study, place);
+    entry.output = index_of_output(study, place);
     if (place.has("reference")) entry.exact = exact_values(place, name, references);
     observed.push_back(std::move(entry));
   }
@@ -180,7 +180,7 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
   if (scale.kind == Scale::Kind::entry) return;
   std::string unit;
   for (const auto& [name, place] : study["quantities"].entries()) {
-    if (output_number(study, place) != output) continue;
+    if (index_of_output(study, place) != output) continue;
     if (unit.empty()) unit = unit_of(name);
     if (unit_of(name) != unit) throw place.error("a common 'scale' requires equal units");
   }
@@ -243,7 +243,7 @@ void check_counts(const JsonView& root, const CostStudy& study) {
   const auto names = root["quantities"];
   for (std::size_t k = 0; k < study.outputs.size(); ++k) {
     std::size_t wanted = 0;
-    for (const auto& entry : names.entries()) wanted += output_number(root, entry.second) == k;
+    for (const auto& entry : names.entries()) wanted += index_of_output(root, entry.second) == k;
     const std::string expected = "expected " + std::to_string(wanted) + " quantities" +
                                  (k > 0 ? " of '" + study.outputs[k].title + "', or none" : "");
     if (wanted == 0) throw names.error("no quantity of output '" + study.outputs[k].title + "'");

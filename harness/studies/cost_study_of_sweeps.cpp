@@ -43,7 +43,7 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
 
 /// Removes the quantities without exact values if others have exact values, because a cost study
 /// measures all errors against the same kind of reference.
-bool drop_without_exact_value(std::vector<ObservedQuantity>& observed) {
+bool drop_inexact_quantities(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::ranges::all_of(observed, lacks)) return false;
   std::erase_if(observed, lacks);
@@ -67,8 +67,8 @@ std::vector<std::string> requested_sweeps(const JsonView& sweeps,
   return asked.empty() ? there : asked;
 }
 
-std::vector<Setting> settings_of(const Document& document, const std::string& sweep,
-                                 const std::vector<ObservedQuantity>& observed) {
+std::vector<Setting> settings_of_sweep(const Document& document, const std::string& sweep,
+                                       const std::vector<ObservedQuantity>& observed) {
   const JsonView place = JsonView(document)["sweeps"][sweep];
   std::vector<Setting> settings;
   for (Level& level : sweep_levels(document, sweep))
@@ -98,10 +98,10 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   if (observed.empty())
     throw first.error(
         "the sweep has no 'quantities', and no check compares a quantity with a reference");
-  const bool exact = drop_without_exact_value(observed);
+  const bool exact = drop_inexact_quantities(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {
-    for (Setting& setting : settings_of(document, name, observed))
+    for (Setting& setting : settings_of_sweep(document, name, observed))
       study.settings.push_back(std::move(setting));
     if (exact || study.reference_solution) continue;
     study.reference_solution = study.settings.back();

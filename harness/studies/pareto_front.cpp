@@ -18,8 +18,8 @@ std::string times(double factor) {
 }
 
 /// Returns equally fast settings as text: "'fine' or 'finer' or one of 3 more".
-std::string alternatives(std::size_t setting, const std::vector<std::size_t>& tied,
-                         const std::vector<std::string>& titles) {
+std::string list_tied_settings(std::size_t setting, const std::vector<std::size_t>& tied,
+                               const std::vector<std::string>& titles) {
   std::string text = fmt::format("'{}'", titles[setting]);
   const std::size_t named = tied.size() <= 3 ? tied.size() : 2;
   for (std::size_t i = 0; i < named; ++i) text += fmt::format(" or '{}'", titles[tied[i]]);
@@ -115,7 +115,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
                        titles[best.setting], error_text(best.error));
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
   std::string text = fmt::format("For an error of at most 1 %, {} is the fastest setting{}",
-                                 alternatives(first->setting, tied, titles),
+                                 list_tied_settings(first->setting, tied, titles),
                                  tied.empty() ? "" : " (their times do not differ significantly)");
   const bool as_quick = std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance);
   if (as_quick && first->setting != baseline)

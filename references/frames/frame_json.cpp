@@ -9,7 +9,7 @@ namespace {
 
 using Sections = std::map<std::string, FrameSection>;
 
-Arguments object_at(const Arguments& parent, const std::string& key) {
+Arguments object_at_key(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
 }
 
@@ -17,7 +17,7 @@ Arguments object_at(const Arguments& parent, const std::string& key) {
 std::vector<std::pair<std::string, Arguments>> objects_of(const Arguments& parent,
                                                           const std::string& key,
                                                           const std::vector<std::string>& known) {
-  const Arguments all = object_at(parent, key);
+  const Arguments all = object_at_key(parent, key);
   std::vector<std::pair<std::string, Arguments>> objects;
   for (const std::string& name : all.keys()) objects.emplace_back(name, all.object(name, known));
   return objects;
@@ -45,7 +45,7 @@ FrameSection read_section(const Arguments& materials, const Arguments& section) 
 }
 
 Sections read_sections(const Arguments& model) {
-  const Arguments materials = object_at(model, "materials");
+  const Arguments materials = object_at_key(model, "materials");
   Sections result;
   for (const auto& [name, section] :
        objects_of(model, "sections",
@@ -132,7 +132,7 @@ void read_springs(const Arguments& model, Frame& frame) {
 }
 
 void read_supports(const Arguments& model, Frame& frame) {
-  const Arguments supports = object_at(model, "supports");
+  const Arguments supports = object_at_key(model, "supports");
   for (const std::string& name : supports.keys()) {
     FrameSupport support{frame.find_node(name), {}};
     if (support.node < 0) supports.fail(name, "expected the name of a node");

@@ -33,7 +33,7 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
 }
 
 /// Widens a bracket until the count in extended precision shows that the bracket contains the root.
-void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
+void widen_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
   for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
     lo *= 1 - std::min(relative_width, Real(0.5));
     if (lo < Real(f.lo) * Real(1e-3))
@@ -68,12 +68,12 @@ Real refine_root(const CountingFunction& f, int index, const Real& lo, const Rea
 /// Returns the argument at which the count reaches `index` >= 1, with a relative error of 1e-20.
 Real counted_root(const CountingFunction& f, int index) {
   auto [lo, hi] = coarse_bracket(f, index);
-  confirm_bracket(f, index, lo, hi);
+  widen_bracket(f, index, lo, hi);
   return refine_root(f, index, lo, hi);
 }
 
 /// Returns the frame with the axial forces that its loads cause, as tensions of its members.
-Frame with_axial_forces(Frame frame) {
+Frame frame_with_axial_forces(Frame frame) {
   const FrameStatics statics = force_method_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     FrameMember& member = frame.members[i];
@@ -188,7 +188,7 @@ FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   return result;
 }
 
-int frequencies_below(const Frame& frame, const Real& frequency) {
+int count_lower_frequencies(const Frame& frame, const Real& frequency) {
   return DynamicStiffness<Real>(frame).wittrick_williams(2 * pi<Real>() * frequency).below;
 }
 
@@ -198,11 +198,11 @@ std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
 }
 
 std::vector<Real> frame_frequency_count_program(const Arguments& arguments) {
-  return {frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
+  return {count_lower_frequencies(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
 }
 
 std::vector<Real> frame_buckling_program(const Arguments& arguments) {
-  const Frame frame = with_axial_forces(frame_from_arguments(arguments));
+  const Frame frame = frame_with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
   const Real w = frequency_order_of_magnitude(frame) * Real(1e-11);  // shifts load factors by 1e-22

@@ -22,8 +22,8 @@ struct Sample {
   std::vector<Real> torques, joints;
 };
 
-Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& trajectory,
-                 const PlanarWrench& wrench, const Real& time) {
+Sample sample_at_time(const ManipulatorNumbers& manipulator, const Arguments& trajectory,
+                      const PlanarWrench& wrench, const Real& time) {
   const auto motion = platform_motion(trajectory, time);
   const auto torques = newton_euler_forces(manipulator, motion, wrench).torque;
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
@@ -82,7 +82,7 @@ std::vector<Real> manipulator_grnn_program(const Arguments& arguments) {
   const Real step = arguments.positive("step_s");
   Rows inputs, outputs;
   for (int k = 0; k < arguments.natural_number("train"); ++k) {
-    const Sample sample = sample_at(manipulator, trajectory, wrench, k * step);
+    const Sample sample = sample_at_time(manipulator, trajectory, wrench, k * step);
     inputs.push_back(sample.torques);
     outputs.push_back(sample.joints);
   }
@@ -91,7 +91,7 @@ std::vector<Real> manipulator_grnn_program(const Arguments& arguments) {
   const std::size_t first = output == "angles" ? 0 : 3;
   std::vector<Real> values(3 * queries.size());
   for (std::size_t q = 0; q < queries.size(); ++q) {
-    const Sample query = sample_at(manipulator, trajectory, wrench, queries[q] * step);
+    const Sample query = sample_at_time(manipulator, trajectory, wrench, queries[q] * step);
     const auto found = nadaraya_watson(inputs, outputs, query.torques, arguments.positive("sigma"));
     for (std::size_t j = 0; j < 3; ++j) values[j * queries.size() + q] = found[first + j];
   }

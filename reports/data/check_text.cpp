@@ -19,7 +19,7 @@ std::string with_unit(const std::string& number, const std::string& unit) {
   return symbol.empty() ? number : number + "\u202f" + symbol;
 }
 
-int digits_in(const std::string& text) {
+int count_digits(const std::string& text) {
   const std::string mantissa = text.substr(0, text.find('e'));
   const std::size_t first = mantissa.find_first_of("123456789");
   if (first == std::string::npos) return 1;
@@ -27,7 +27,7 @@ int digits_in(const std::string& text) {
                                         [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-int digits_for(const Check& check) {
+int digits_of_check(const Check& check) {
   if (!check.expected || !check.computed) return 4;
   return distinguishing_digits(*check.expected, *check.computed);
 }
@@ -51,7 +51,7 @@ std::string statistic_text(const std::string& statistic) {
 
 /// Returns the number of significant digits that a ratio requires so that its text differs from
 /// "1".
-int ratio_digits(double ratio) {
+int digits_of_ratio(double ratio) {
   return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
@@ -59,7 +59,7 @@ int ratio_digits(double ratio) {
 /// number with its unit, as the key "measure" of the check requires.
 std::string measured_text(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return percent_text(x, 3, sign);
-  if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
+  if (check.measure == "ratio") return trimmed(x, digits_of_ratio(x));
   const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
   const bool plain = check.measure == "order" || check.measure == "leading-term";
   return plain ? number : with_unit(number, check.unit);
@@ -89,9 +89,9 @@ std::string target_text(const Check& check) {
   if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A target with at most kMaxTargetDigits digits is shown with all digits.
-  const int digits = digits_in(shortest_decimal(*check.expected));
+  const int digits = count_digits(shortest_decimal(*check.expected));
   if (digits <= kMaxTargetDigits) return significant(*check.expected, digits);
-  return significant(*check.expected, digits_for(check));
+  return significant(*check.expected, digits_of_check(check));
 }
 
 std::string computed_text(const Check& check) {
@@ -101,7 +101,7 @@ std::string computed_text(const Check& check) {
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
-  return significant(x, digits_for(check));
+  return significant(x, digits_of_check(check));
 }
 
 std::string difference_text(const Check& check, double difference) {

@@ -40,7 +40,7 @@ std::vector<PrintedRow> printed_rows(const Run& run) {
 
 /// Returns the expanded uncertainty of a computed value due to discretization and inputs, in the
 /// unit of the value.
-double uncertainty_of(const Run& run, const Check& check) {
+double uncertainty_of_check(const Run& run, const Check& check) {
   const Comparison* found = find_comparison(run, check);
   return found ? 2 * std::hypot(found->u_num.value_or(0), found->u_input.value_or(0)) : 0;
 }
@@ -67,7 +67,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
     const std::string title = reference ? reference->title : rows[r].reference;
     PlotScript::Rows points;
     for (const Check* check : rows[r].entries) {
-      const double entry = *check->index + 1, band = uncertainty_of(run, *check);
+      const double entry = *check->index + 1, band = uncertainty_of_check(run, *check);
       points.push_back({entry - 0.12 - 0.1 * static_cast<double>(r), *check->expected});
       if (r == 0) computed.push_back({entry + 0.12, *check->computed, band});
       differences.cover(check->difference);

@@ -31,7 +31,7 @@ Numbers errors_of(const Convergence& c) {
   return errors;
 }
 
-double drawn_error(double error) {
+double error_on_log_axis(double error) {
   return std::max(std::abs(error), kSmallestDrawnError);
 }
 
@@ -62,7 +62,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   PlotScript::Rows line, inside;
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (!errors[k]) continue;
-    const double y = drawn_error(*errors[k]);
+    const double y = error_on_log_axis(*errors[k]);
     extent.cover(y);
     line.push_back({*c.parameter[k], y});
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
@@ -83,7 +83,7 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
     const bool falls = errors.front().value_or(0) > errors.back().value_or(0);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       if (!errors[k] || !c->in_asymptotic_range[k]) continue;
-      const double x = *c->parameter[k], start = drawn_error(*errors[k]) / 4;
+      const double x = *c->parameter[k], start = error_on_log_axis(*errors[k]) / 4;
       const double way = line.empty() ? 1 : std::pow(x / line[0][0], falls ? -theory : theory);
       line.push_back({x, way * (line.empty() ? start : line[0][1])});
       extent.cover(line.back()[1]);
@@ -144,7 +144,7 @@ Table table_of(const Sweeps& sweeps) {
   return table;
 }
 
-void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
+void set_parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   std::set<double> levels;
   for (const Convergence* c : sweeps)
     for (const Number& level : c->parameter) levels.insert(*level);
@@ -164,7 +164,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool exact = std::ranges::any_of(first.error, &Number::has_value);
   PlotScript script;
-  parameter_axis(script, sweeps);
+  set_parameter_axis(script, sweeps);
   const std::string words = to_text(parse_quantity(first.quantity));
   script.axis_label("y", exact ? "relative error of " + words
                                : "distance of " + words + " from extrapolated value");

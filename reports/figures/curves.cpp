@@ -27,7 +27,7 @@ struct Series {
 
 /// Returns the number that an axis shows for a value. A logarithmic axis shows magnitudes and omits
 /// zeros.
-Number drawn_number(const Number& value, bool log) {
+Number number_on_axis(const Number& value, bool log) {
   if (!value || !log) return value;
   return *value == 0 ? Number() : Number(std::abs(*value));
 }
@@ -37,8 +37,8 @@ PlotScript::Rows curve_rows(const std::vector<double>* x, const std::vector<doub
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const Number at =
-        drawn_number(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
-    const Number value = drawn_number(y[i], request.is_log("y"));
+        number_on_axis(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
+    const Number value = number_on_axis(y[i], request.is_log("y"));
     if (at && value) {
       rows.push_back({factors.first * *at, factors.second * *value});
     } else if (!rows.empty() && !rows.back().empty()) {
@@ -136,7 +136,7 @@ void set_range(PlotScript& script, const std::string& axis,
   Interval range;
   for (const std::vector<double>* values : curves)
     for (const Number value : *values)
-      if (const Number drawn = drawn_number(value, log)) range.cover(factor * *drawn);
+      if (const Number drawn = number_on_axis(value, log)) range.cover(factor * *drawn);
   if (log && !range.empty())
     script.log_axis(axis, range.low, range.high > range.low ? range.high : 10 * range.high);
   if (!log && range.length() > 0) script.range(axis, range.low, range.high);

@@ -120,7 +120,7 @@ std::vector<double> values_of_all_maps(const CaseInfo& info, const PlotRequest& 
   return values;
 }
 
-PlotScript::Rows line_rows(const std::vector<double>& x, const std::vector<double>& y) {
+PlotScript::Rows rows_of_line(const std::vector<double>& x, const std::vector<double>& y) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
     if (Number(x[i]) && Number(y[i])) {
@@ -140,7 +140,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
     const std::vector<double>* y = run.quantity(line.y);
     if (!x || !y) continue;  // the run has no values of this curve
     const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
-    script.curve(line_rows(*x, *y), style);
+    script.curve(rows_of_line(*x, *y), style);
     script.key_entry(style, line.title);
     titles.push_back(line.title);
   }

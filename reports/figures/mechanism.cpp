@@ -55,7 +55,7 @@ void write_at(PlotScript& script, double x, double y, const std::string& text, c
 
 /// Writes the name of each joint next to the joint, on the side that faces away from the center of
 /// the drawing.
-void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
+void write_joint_names(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> named;
   for (const Joint& joint : drawing.joints) {
@@ -134,9 +134,9 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
 
 /// Draws the poses of a mechanism other than the first pose, and the legend of poses, joints and
 /// loads. @returns the height of the legend [px]
-int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
-                  const std::string& base_label, const Drawing& drawing,
-                  const std::vector<LoadArrows>& loads) {
+int draw_further_poses(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
+                       const std::string& base_label, const Drawing& drawing,
+                       const std::vector<LoadArrows>& loads) {
   std::vector<std::string> titles;
   for (const Pose* pose : overlays) titles.push_back(pose->label);
   if (!titles.empty()) titles.push_back(base_label);
@@ -175,7 +175,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   const Box box = box_around(sets, 0.12, 0.2);
   set_axis_ranges(script, box);
   Table table{words_in("pose node x_m y_m joint name"), {}, kSampleDigits};
-  const int key_height = draw_overlays(script, table, overlays, base_label, drawing, loads);
+  const int key_height = draw_further_poses(script, table, overlays, base_label, drawing, loads);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
   script.curve(polyline_points(triangle_edges_inside(drawing), drawing.nodes),
@@ -186,7 +186,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   for (const LoadArrows& arrows : loads)
     script.curve(arrows.rows, "with vectors filled lw 2" + lc(palette::kSeries[1]), arrows.title);
   const Box body = box_around({drawing.nodes}, 0, 0);
-  name_joints(script, drawing, body);
+  write_joint_names(script, drawing, body);
   draw_dimensions(script, drawing, body);
   script.plot();
 

@@ -123,8 +123,8 @@ Json row_differences(std::vector<Coordinates> rows) {
 /// Returns the animation of a motion as JSON: the node positions at each instant with magnified
 /// deflections. If any node deflects, it also contains the positions without deflections. Positions
 /// are stored as differences from the previous instant.
-std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
-                         const Box& box, double panel) {
+std::string animation_json(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
+                           const Box& box, double panel) {
   Panel moving(drawing, box, panel);
   std::vector<Coordinates> still, moved;
   for (const Pose& instant : instants) {
@@ -178,7 +178,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
                 .height = drawing_height(box),
                 .commands = script.commands(),
                 .data = table_of(instants),
-                .moving = moving_poses(drawing, instants, factor, box, 500)};
+                .moving = animation_json(drawing, instants, factor, box, 500)};
 }
 
 bool are_finite(const std::vector<Point>& points) {

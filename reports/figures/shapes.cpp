@@ -49,9 +49,9 @@ struct Panel {
 /// @param half_period_s  time from the shape to its mirror image; 0: the body does not swing
 /// @param name           unique name of the drawing
 /// @param motion         the CSS of the animation is appended to this text
-std::string panel_svg(const Drawing& drawing, const Shape& shape, double factor,
-                      double half_period_s, const std::string& name, std::size_t panels,
-                      const Panel& panel, std::string& motion) {
+std::string shape_panel_svg(const Drawing& drawing, const Shape& shape, double factor,
+                            double half_period_s, const std::string& name, std::size_t panels,
+                            const Panel& panel, std::string& motion) {
   const std::vector<Point> there = displaced(drawing.nodes, shape, factor),
                            back = displaced(drawing.nodes, shape, -factor);
   std::string out = fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" fill=\"{}\">{}</text>\n",
@@ -88,7 +88,7 @@ bool is_mode(const Shape& shape) {
 
 /// Returns the frequencies of `n` vibration modes [Hz]. Empty if the shapes are no vibration modes,
 /// or if any of the frequencies is missing.
-std::vector<double> frequencies_of(const Drawing& drawing, std::size_t n, const Run& run) {
+std::vector<double> mode_frequencies(const Drawing& drawing, std::size_t n, const Run& run) {
   const auto* frequency = run.quantity("frequency_Hz");
   std::vector<double> values;
   for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
@@ -161,7 +161,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   constexpr double kWidth = 500, kHeadline = 32, kMaxHeight = 270;
   const double cell = kWidth / static_cast<double>(columns), aspect = box.height() / box.width();
   const double width = std::min(cell, kMaxHeight / aspect), high = width * aspect + kHeadline;
-  const std::vector<double> hertz = frequencies_of(drawing, n, run);
+  const std::vector<double> hertz = mode_frequencies(drawing, n, run);
   const double fastest = hertz.empty() ? 0 : std::ranges::max(hertz);
   double slowest = fastest;
   for (const double f : hertz) slowest = f > kRigid * fastest ? std::min(slowest, f) : slowest;
@@ -169,12 +169,12 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   std::string svg, motion;
   for (std::size_t s = 0; s < n; ++s) {
     const std::size_t row = s / columns;
-    svg += panel_svg(drawing, drawing.shapes[s], factors[s],
-                     slowed > 0 && hertz[s] > kRigid * fastest ? 0.5 * slowed / hertz[s] : 0,
-                     info.id + "-" + run.variant + "-" + std::to_string(s), n,
-                     {box, cell * static_cast<double>(s % columns) + 0.5 * (cell - width),
-                      high * static_cast<double>(row) + kHeadline, width},
-                     motion);
+    svg += shape_panel_svg(drawing, drawing.shapes[s], factors[s],
+                           slowed > 0 && hertz[s] > kRigid * fastest ? 0.5 * slowed / hertz[s] : 0,
+                           info.id + "-" + run.variant + "-" + std::to_string(s), n,
+                           {box, cell * static_cast<double>(s % columns) + 0.5 * (cell - width),
+                            high * static_cast<double>(row) + kHeadline, width},
+                           motion);
   }
 
   const bool modes = drawing.shapes.front().label.starts_with("mode");

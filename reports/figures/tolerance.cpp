@@ -34,7 +34,7 @@ double drawn_fraction(const Check& check) {
   return std::clamp(difference_over_tolerance(check), kMinShare, kMaxShare);
 }
 
-bool is_shown(const Check& check) {
+bool is_shown_check(const Check& check) {
   if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
          (check.verdict == Verdict::pass && is_numeric(check) &&
@@ -49,7 +49,7 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
   std::vector<ToleranceRow> rows;
   for (const Run* run : runs)
     for (const Check& check : run->checks) {
-      if (!is_shown(check)) continue;
+      if (!is_shown_check(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
       const auto same = [&](const ToleranceRow& known) { return known.label == label; };
       ToleranceRow& row = harness::find_or_add(rows, same, {label, {}, 0});
@@ -103,7 +103,7 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
 
 /// Sets the y axis and writes labels above the lines of their rows, so that the labels
 /// need no margin.
-void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows, bool with_labels) {
+void write_row_labels(PlotScript& script, const std::vector<ToleranceRow>& rows, bool with_labels) {
   script.command("unset ytics; set border 1; set lmargin 2; set rmargin 3");
   script.command("unset grid; set grid xtics" + lc(palette::kGrid) + " lw 1 lt 1");
   script.range("y", -static_cast<double>(rows.size()), 0);
@@ -156,7 +156,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   const bool many = table.rows.size() > kManyChecks;
   const double per_decade = many ? 5 : 100;
   PlotScript script;
-  draw_labels(script, rows, !largest_only);
+  write_row_labels(script, rows, !largest_only);
   script.log_axis("x", kMinShare, kMaxShare);
   script.range("x", kMinShare / 1.6, kMaxShare * 1.6);
   script.command(

@@ -41,14 +41,14 @@ Code read_code(const std::filesystem::path& file) {
     code.version = solver->version;
   }
   for (const Run& run : code.results.runs) {
-    ++code.counts[grade_of(run)];
+    ++code.counts[grade_of_run(run)];
     code.wall_s += run.cost.wall_s;
   }
   return code;
 }
 
 /// Returns a row for each variant of a case that at least one code has run.
-std::vector<Row> plan_rows(const std::vector<Code>& codes) {
+std::vector<Row> plan_table_rows(const std::vector<Code>& codes) {
   std::vector<Row> rows;
   for (std::size_t c = 0; c < codes.size(); ++c)
     for (const Run& run : codes[c].results.runs) {
@@ -66,7 +66,7 @@ std::vector<Row> plan_rows(const std::vector<Code>& codes) {
 
 /// Returns the check of `run` with the name, quantity and index of the check `like`; null if `run`
 /// has no such check.
-const Check* find_check(const Run& run, const Check& like) {
+const Check* find_same_check(const Run& run, const Check& like) {
   for (const Check& check : run.checks)
     if (check.name == like.name && check.quantity == like.quantity && check.index == like.index &&
         check.difference)
@@ -106,8 +106,8 @@ std::string status_text(const Run& run, Grade grade, const Check* here) {
 
 Data cell(const Run* run, const Check* shown) {
   if (run == nullptr) return object({{"has_run", false}});
-  const Grade grade = grade_of(*run);
-  const Check* here = shown == nullptr ? nullptr : find_check(*run, *shown);
+  const Grade grade = grade_of_run(*run);
+  const Check* here = shown == nullptr ? nullptr : find_same_check(*run, *shown);
   const bool not_computed = grade == Grade::cannot || grade == Grade::not_exported;
   return object({{"has_run", true},
                  {"status_class", mark(grade).first},
@@ -133,7 +133,7 @@ Data row_data(const Row& row) {
 
 /// Returns a table of the simulation codes, with their numbers of runs of each grade and their
 /// computing times.
-TextTable codes_table(const std::vector<Code>& codes) {
+TextTable table_of_codes(const std::vector<Code>& codes) {
   std::vector<Grade> grades;
   for (const Grade grade : kAllGrades)
     if (std::ranges::any_of(codes, [&](const Code& code) { return code.counts.contains(grade); }))
@@ -161,10 +161,10 @@ std::filesystem::path write_code_comparison(const std::vector<std::filesystem::p
                                             const std::filesystem::path& out) {
   std::vector<Code> codes;
   for (const auto& file : results_json) codes.push_back(read_code(file));
-  const std::vector<Row> rows = plan_rows(codes);
+  const std::vector<Row> rows = plan_table_rows(codes);
   const auto name = [](const Code& code) { return object({{"name", code.name}}); };
   const Data page = object({{"style", template_text("style.css")},
-                            {"table", table_data(codes_table(codes))},
+                            {"table", table_data(table_of_codes(codes))},
                             {"codes", list_of(codes, name)},
                             {"rows", list_of(rows, row_data)},
                             {"extent", count(rows.size(), "run") + " of the catalogue, " +

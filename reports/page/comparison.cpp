@@ -85,7 +85,7 @@ TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) 
   return table;
 }
 
-TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison) {
+TextTable table_of_numbers(const ComparedRun& run, const SideComparison& comparison) {
   TextTable table = value_table("Numbers that differ", "Quantity", comparison);
   for (const ComparedNumber& number : run.numbers) {
     if (!number.changed) continue;
@@ -169,7 +169,7 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
     if (!run.changed && figures[i].empty()) continue;
     const bool variants = run.name == comparison.sides.front().label;
     Data tables = list();
-    for (const TextTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
+    for (const TextTable& table : {modes_table(run, comparison), table_of_numbers(run, comparison)})
       if (!table.rows.empty()) tables.push_back(table_data(table));
     runs.push_back(object({{"name", run.info.title.empty() ? run.name
                                     : variants             ? run.info.title

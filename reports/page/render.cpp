@@ -21,7 +21,7 @@ constexpr std::array<const char*, 18> kPartials = {
 
 /// Replaces numbers such as 1e-6 by 10⁻⁶ in an HTML text, except in code, styles, scripts and
 /// metadata.
-std::string with_powers_in_text(const std::string& html) {
+std::string typeset_powers_in_html(const std::string& html) {
   constexpr std::array<std::string_view, 4> kUnchanged = {"code", "style", "script", "metadata"};
   std::string out;
   for (std::size_t from = 0; from < html.size();) {
@@ -64,7 +64,7 @@ std::string render(const std::string& template_name, Data data) {
   if (!page.is_valid()) throw std::logic_error(template_name + ": " + page.error_message());
   std::ranges::replace_if(
       html, [](char c) { return is_control(c) && c != '\n' && c != '\t'; }, ' ');
-  return with_powers_in_text(html);
+  return typeset_powers_in_html(html);
 }
 
 std::string with_relative_links(const std::string& html, const std::string& page) {

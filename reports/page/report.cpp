@@ -35,7 +35,7 @@ std::string key_of(const Results& results) {
 /// Reads the list of files of an earlier report.
 /// @param key  set to the key of the earlier report, or empty if one of its files is missing or has
 /// another size
-std::vector<fs::path> read_list(const fs::path& out, std::string& key) {
+std::vector<fs::path> read_file_list(const fs::path& out, std::string& key) {
   std::vector<fs::path> files;
   std::ifstream in(out / kFileList);
   std::getline(in, key);
@@ -49,7 +49,7 @@ std::vector<fs::path> read_list(const fs::path& out, std::string& key) {
 }
 
 /// Returns the paths and sizes of the files of a report, except for results.json and junit.xml.
-std::string list_of_files(const fs::path& folder) {
+std::string list_report_files(const fs::path& folder) {
   std::set<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder));
@@ -66,7 +66,7 @@ fs::path write_report(const Results& results, const fs::path& out) {
   const fs::path part = out / kUnfinishedFolder;
   const std::string key = key_of(results);
   std::string earlier_key;
-  const std::vector<fs::path> earlier_files = read_list(out, earlier_key);
+  const std::vector<fs::path> earlier_files = read_file_list(out, earlier_key);
   try {
     const Environment& from = results.environment;
     if (from.stored_runs > 0 && key == earlier_key) {
@@ -97,7 +97,7 @@ fs::path write_report(const Results& results, const fs::path& out) {
       fs::create_directories((part / file.path).parent_path());
       write_file(part / file.path, file.text);
     }
-    write_file(part / kFileList, key + "\n" + list_of_files(part));
+    write_file(part / kFileList, key + "\n" + list_report_files(part));
     replace_files(part, out, kFileList, earlier_files);
   } catch (...) {
     std::error_code ignored;

@@ -51,8 +51,8 @@ void copy(const Data& from, Data& to, std::initializer_list<const char*> keys) {
 }
 
 /// Returns the data of the front page and of all pages of sections.
-Data index_data(const Results& results, const std::vector<Family>& families,
-                const StudyFigures& figures) {
+Data front_page_data(const Results& results, const std::vector<Family>& families,
+                     const StudyFigures& figures) {
   const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
   const Data summary = summary_section(results, families);
   return object(
@@ -156,7 +156,7 @@ std::string body_of(const std::string& name, const Data& section) {
 
 /// Returns the HTML of the sections of a page. A section can also contain figures of the front
 /// page.
-std::string sections_body(const Data& index, const std::vector<const char*>& keys) {
+std::string html_of_sections(const Data& index, const std::vector<const char*>& keys) {
   std::string body;
   for (const std::string key : keys)
     if (has_content(index, key))
@@ -171,7 +171,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                                  const StudyFigures& figures) {
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
-  const Data index = index_data(results, families, figures);
+  const Data index = front_page_data(results, families, figures);
   std::vector<SiteFile> files;
   const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
@@ -201,13 +201,13 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
         body_of("references", references_section(results)));
   for (const SectionPage& page : section_pages())
     if (has_content(index, page))
-      add(page.path, object({{"heading", page.title}}), sections_body(index, page.keys));
+      add(page.path, object({{"heading", page.title}}), html_of_sections(index, page.keys));
   const bool has_runs = index.get("has_runs")->is_true();
   add("index.html",
       object({{"heading",
                has_runs ? "Verification and validation report" : "Accuracy and computing time"}}),
       render("index.mustache", index) +
-          (has_runs ? "" : sections_body(index, {"cost", "effects"})));
+          (has_runs ? "" : html_of_sections(index, {"cost", "effects"})));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});

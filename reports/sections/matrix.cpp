@@ -41,7 +41,7 @@ struct MatrixSubject {
   std::map<int, double> targets;
 };
 
-bool is_in_matrix(const Check& check) {
+bool is_matrix_check(const Check& check) {
   return check.role == "validation" && check.measure == "relative" && check.expected &&
          check.difference && !check.reference.empty() && check.verdict != Verdict::error &&
          check.verdict != Verdict::not_run;
@@ -51,7 +51,7 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   std::vector<MatrixSubject> out;
   for (const Run* run : family.runs)
     for (const Check& check : run->checks) {
-      if (!is_in_matrix(check)) continue;
+      if (!is_matrix_check(check)) continue;
       const auto same = [&](const MatrixSubject& known) {
         return known.reference == check.reference && known.quantity == check.quantity &&
                known.check == check.name;

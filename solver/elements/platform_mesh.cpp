@@ -20,7 +20,7 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 }
 
 /// Adds the mid-side nodes of all triangles. Two triangles share the node of a common side.
-void add_middles(TriangleMesh& mesh) {
+void add_midside_nodes(TriangleMesh& mesh) {
   mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
   std::unordered_map<Index, Index> middle;  // mid-side node of the side with given end nodes
   middle.reserve(2 * mesh.triangles.size());
@@ -36,7 +36,7 @@ void add_middles(TriangleMesh& mesh) {
 
 /// Splits every triangle into four triangles at its mid-side nodes.
 TriangleMesh split(TriangleMesh mesh) {
-  add_middles(mesh);
+  add_midside_nodes(mesh);
   TriangleMesh fine{std::move(mesh.nodes), {}};
   fine.triangles.reserve(4 * mesh.triangles.size());
   for (const auto& [i, j, k, ij, jk, ki] : mesh.triangles) {
@@ -147,7 +147,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
     mesh.triangles.push_back(t);
   }
   for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));
-  if (six_nodes) add_middles(mesh);
+  if (six_nodes) add_midside_nodes(mesh);
   return mesh;
 }
 

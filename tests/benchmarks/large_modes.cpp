@@ -94,7 +94,7 @@ struct Cost {
   double seconds = 0, megabytes = 0;
 };
 
-Cost measure_cost(const std::string& kind, Index size) {
+Cost measure_mode_cost(const std::string& kind, Index size) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
     Eigen::MatrixXd powers(4, 2), costs(4, 2);  // rows of log(cost) = a + b log(size)
     for (Index i = 0; i < 4; ++i) {
       const auto part = static_cast<Index>(static_cast<double>(size) * std::pow(32, (i - 3) / 3.0));
-      const Cost cost = measure_cost(kind, part);
+      const Cost cost = measure_mode_cost(kind, part);
       powers.row(i) << 1, std::log(static_cast<double>(part));
       costs.row(i) << std::log(cost.seconds), std::log(cost.megabytes);
     }

@@ -25,7 +25,7 @@ auto one_of(Random& random, const List& list) {
 
 /// Returns a text from a JSON document: a key, a text value, a pointer to a value, or the part of a
 /// text after a colon.
-std::string any_word(Random& random, const Json& document) {
+std::string pick_word(Random& random, const Json& document) {
   static const Json odd =
       Json::parse(R"(["", " ", "x", "..", "/", "~", "-1", "0", "base", "a:b", ":", "../x", "=1+1",
                      "\u0000", "a\nb", "\u001b[31m", "`id`", "%s%n", "\u00e9"])");
@@ -52,7 +52,7 @@ std::string any_word(Random& random, const Json& document) {
 
 /// Returns a number at or beyond the limits of a schema rule, or a numerically difficult number
 /// such as 5e-324.
-Json any_number(Random& random, const Json& rule, const Json& former) {
+Json pick_number(Random& random, const Json& rule, const Json& former) {
   static const Json hard = Json::parse(
       R"([0, -0.0, 1, -1, 2, 3, 7, 0.5, 0.99, 1e-9, 1e9, 1e-30, 1e30, 1e100, 1e-300, 1e300, -1e300,
           5e-324, 1.7976931348623157e308, 2147483647, 2147483648, 4294967296, 9007199254740993,
@@ -194,17 +194,17 @@ Json Mutator::generate(Random& random, const Schema& schema, const Json& rule, c
   if (rule.contains("enum")) return one_of(random, rule.at("enum"));
   const Json type = rule.contains("type") ? rule.at("type") : Json("object");
   const auto name = (type.is_array() ? one_of(random, type) : type).get<std::string>();
-  if (name == "string") return any_word(random, document);
+  if (name == "string") return pick_word(random, document);
   if (name == "boolean") return below(random, 2) == 0;
   if (name == "null") return nullptr;
   if (name == "number" || name == "integer") {
-    return any_number(random, rule,
-                      name == "integer" ? Json(1 + below(random, 4))
-                                        : Json(0.1 * static_cast<double>(1 + below(random, 50))));
+    return pick_number(random, rule,
+                       name == "integer" ? Json(1 + below(random, 4))
+                                         : Json(0.1 * static_cast<double>(1 + below(random, 50))));
   }
   const auto entry = [&](const std::string& key) {
     const auto rules = schema.rules_of_entry({&rule}, key);
-    return rules.empty() ? Json(any_word(random, document))
+    return rules.empty() ? Json(pick_word(random, document))
                          : generate(random, schema, *one_of(random, rules), document, depth + 1);
   };
   if (name == "array") {
@@ -221,7 +221,7 @@ Json Mutator::generate(Random& random, const Schema& schema, const Json& rule, c
   for (const auto& item : properties.items())
     if (below(random, 4 + 4 * static_cast<std::size_t>(depth)) == 0)
       object[item.key()] = entry(item.key());
-  if (properties.empty() && depth < 5) object[any_word(random, document)] = entry("");
+  if (properties.empty() && depth < 5) object[pick_word(random, document)] = entry("");
   return object;
 }
 
@@ -248,9 +248,9 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
     case 2:
     case 3:
       if (value.is_number())
-        value = any_number(random, rule, value);
+        value = pick_number(random, rule, value);
       else if (value.is_string())
-        value = any_word(random, json);
+        value = pick_word(random, json);
       else if (!rule.empty())
         value = generate(random, schema, rule, json, 0);
       note("changed");
@@ -264,7 +264,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       const Json properties = rule.empty() ? json : rule.value("properties", Json::object());
       const std::string key =
           properties.empty() || below(random, 6) == 0
-              ? any_word(random, json)
+              ? pick_word(random, json)
               : std::next(properties.begin(), static_cast<long>(below(random, properties.size())))
                     .key();
       const auto rules =

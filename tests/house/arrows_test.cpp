@@ -20,7 +20,7 @@ constexpr std::size_t kFilesInRoom = 32;
 
 using Cells = std::vector<std::string>;
 
-std::vector<std::string> lines_of(const fs::path& file) {
+std::vector<std::string> lines_of_file(const fs::path& file) {
   std::ifstream in(file);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -38,7 +38,7 @@ Cells cells_of(const std::string& line) {
 std::vector<Cells> table(const fs::path& file, const std::string& head) {
   std::vector<Cells> rows;
   bool inside = false;
-  for (const std::string& line : lines_of(file)) {
+  for (const std::string& line : lines_of_file(file)) {
     if (line.rfind(head, 0) == 0) {
       inside = true;
     } else if (inside && line.rfind("|", 0) != 0) {
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(every_include_obeys_the_folder_dependencies) {
     const std::string room = rooms().row_of(file);
     BOOST_TEST(!room.empty(), file << " is in no room of CONTRIBUTING.md");
     if (room.empty()) continue;
-    for (const std::string& line : lines_of(kRoot / file)) {
+    for (const std::string& line : lines_of_file(kRoot / file)) {
       std::smatch match;
       if (!std::regex_search(line, match, include)) continue;
       const std::string target = match[1], part = first_part(target);
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
       if (entry.path().extension() != ".h") continue;
       std::string inside;
       std::smatch found;
-      for (const std::string& line : lines_of(entry.path())) {
+      for (const std::string& line : lines_of_file(entry.path())) {
         if (std::regex_match(line, found, space)) inside = found[1];
         if (!std::regex_match(line, found, type) || found[3].matched) continue;
         const auto [known, fresh] = first.emplace(inside + "::" + found[2].str(), entry.path());

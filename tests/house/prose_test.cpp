@@ -121,7 +121,7 @@ void collect_texts(const nlohmann::json& json, Strings& texts) {
     for (const nlohmann::json& entry : json) collect_texts(entry, texts);
 }
 
-Strings texts_of(const fs::path& file) {
+Strings texts_of_file(const fs::path& file) {
   std::ifstream in(file);
   const std::string extension = file.extension().string();
   if (extension == ".h" || extension == ".cpp") return comments(in, "//");
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(all_texts_obey_the_prose_rules) {
   for (const fs::path& file : files()) {
     if (file.extension() == ".json" && file.string().starts_with((kRoot / "tests").string()))
       continue;  // faults quote code
-    for (const std::string& text : texts_of(file)) {
+    for (const std::string& text : texts_of_file(file)) {
       const Strings rules = broken_rules(text, file.extension() == ".md");
       const auto allowed = std::ranges::find_if(
           kAllowed, [&](const auto& part) { return text.find(part) != std::string::npos; });

@@ -59,7 +59,7 @@ bool is_full(int file, std::size_t size) {
   return true;
 }
 
-int armed_main(int argc, char** argv, char** environment) {
+int main_with_faults(int argc, char** argv, char** environment) {
   const char* const fault = std::getenv("TRAMMEL_FAULT");
   const char* const names[] = {"none",   "memory", "disk",  "read", "compute",
                                "result", "draw",   "clock", "count"};
@@ -87,8 +87,8 @@ void* __libc_malloc(std::size_t size);
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*fini)(), void (*rtld_fini)(), void* stack_end) {
   own_main = main;
-  return next<decltype(&__libc_start_main)>("__libc_start_main")(armed_main, argc, argv, init, fini,
-                                                                 rtld_fini, stack_end);
+  return next<decltype(&__libc_start_main)>("__libc_start_main")(main_with_faults, argc, argv, init,
+                                                                 fini, rtld_fini, stack_end);
 }
 // NOLINTEND(bugprone-reserved-identifier)
 

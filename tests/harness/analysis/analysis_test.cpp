@@ -202,9 +202,9 @@ BOOST_AUTO_TEST_CASE(every_catalogue_case_requires_less_than_2_GB) {
 BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
-    set_solver_rounding(mode);
+    set_solver_rounding_mode(mode);
     const AnalysisResult result = analyze(arch, References(), {});
-    set_solver_rounding(FE_TONEAREST);
+    set_solver_rounding_mode(FE_TONEAREST);
     BOOST_TEST_REQUIRE(result.outcome.solved(), result.outcome.reason);
     BOOST_TEST(testing::values(result, "displacement_y_m:N4").back() < -10);
     BOOST_TEST(testing::values(result, "unstable_directions").back() == 0);

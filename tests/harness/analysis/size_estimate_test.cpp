@@ -24,7 +24,7 @@ struct Memory {
 
 /// Measures the memory of an analysis in a separate process, which excludes memory of other
 /// analyses.
-Memory memory_of(const std::function<Json()>& make) {
+Memory measure_memory(const std::function<Json()>& make) {
   Memory memory;
   const auto work = [&] {
     const Document document = testing::document_of(make());
@@ -48,9 +48,9 @@ Memory memory_of(const std::function<Json()>& make) {
 
 void check(const std::string& name, const std::function<Json(int)>& sized,
            const std::vector<int>& sizes) {
-  const double none = memory_of(testing::cantilever).most;
+  const double none = measure_memory(testing::cantilever).most;
   for (const int size : sizes) {
-    const Memory memory = memory_of([&] { return sized(size); });
+    const Memory memory = measure_memory([&] { return sized(size); });
     const double ratio = memory.estimated / (memory.most - none);
     BOOST_TEST((ratio >= 1 && ratio <= 3), name << ' ' << size << ": estimated "
                                                 << memory.estimated / 1e6 << " MB, " << ratio
@@ -58,7 +58,7 @@ void check(const std::string& name, const std::function<Json(int)>& sized,
   }
 }
 
-Json harmonic(int elements, int points) {
+Json harmonic_case(int elements, int points) {
   Json json = testing::cantilever();
   json["model"]["elements"] = elements;
   json["analysis"] = Json::parse(
@@ -68,7 +68,7 @@ Json harmonic(int elements, int points) {
   return json;
 }
 
-Json membrane(int cells, const char* triangles) {
+Json membrane_case(int cells, const char* triangles) {
   Json json = Json::parse(R"({"id": "membrane", "title": "Membrane", "analysis": {"manufactured": {
     "membrane": {"field": "clamped", "length_m": 0.8, "height_m": 0.5, "thickness_m": 0.01,
                  "material": {"E_Pa": 7e10, "rho_kg_m3": 2700, "nu": 0.33}}}}})");
@@ -91,16 +91,16 @@ Json samples(int count) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(estimate_is_one_to_three_times_the_measured_memory) {
-  check("points of a response", [](int n) { return harmonic(10, n); }, {20000, 40000, 100000});
-  check("elements that vibrate", [](int n) { return harmonic(n, 2); }, {2000, 4000, 8000});
+  check("points of a response", [](int n) { return harmonic_case(10, n); }, {20000, 40000, 100000});
+  check("elements that vibrate", [](int n) { return harmonic_case(n, 2); }, {2000, 4000, 8000});
   const auto damped = [](int n) {
-    Json json = harmonic(n, 2);
+    Json json = harmonic_case(n, 2);
     json["analysis"]["harmonic"]["damping"]["rayleigh"]["stiffness_s"] = 1e-5;
     return json;
   };
   check("elements that vibrate, damped", damped, {2000, 4000, 8000});
-  check("three-node", [](int n) { return membrane(n, "three-node"); }, {96, 144, 192});
-  check("six-node", [](int n) { return membrane(n, "six-node"); }, {48, 72, 96});
+  check("three-node", [](int n) { return membrane_case(n, "three-node"); }, {96, 144, 192});
+  check("six-node", [](int n) { return membrane_case(n, "six-node"); }, {48, 72, 96});
   check("samples", samples, {10000, 20000, 40000});
   const auto path = [](int n) {
     Json json = testing::manipulator();

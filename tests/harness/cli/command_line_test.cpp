@@ -518,7 +518,7 @@ namespace {
 /// Applies a JSON block from the documentation to the case `example`. The block contains a
 /// reference, a complete case, or a merge patch of the case. A line "..." represents keys that do
 /// not change.
-void apply_block(std::string block, Json& example, const Folder& folder) {
+void apply_json_block(std::string block, Json& example, const Folder& folder) {
   if (const auto dots = block.find("    ...\n"); dots != std::string::npos) block.erase(dots, 8);
   const Json json = parse_json(block.front() == '{' ? block : "{" + block + "}", "block");
   if (json.front().contains("uncertainty")) {
@@ -557,7 +557,7 @@ BOOST_AUTO_TEST_CASE(commands_and_cases_in_documents_run_without_error) {
       Outcome outcome{0, "", ""};
       if (line.starts_with("```")) {
         if (fence == "```json") {
-          apply_block(block, example, folder);
+          apply_json_block(block, example, folder);
           const std::string file = example.at("id").get<std::string>() + ".json";
           (void)folder.write(file, example.dump());
           outcome = run(folder, "run " + file);

@@ -41,7 +41,7 @@ using List = std::vector<std::string>;
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(features_of_a_case_have_the_names_of_the_schema) {
-  const CaseFeatures all = features_of_schema();
+  const CaseFeatures all = case_features_of_schema();
   for (const char* feature : {"model.members", "member.taper", "beam = timoshenko", "spring.nodes",
                               "analysis.modes.rotating", "rotating.axis = x", "effects = shear"})
     BOOST_TEST(all.count(feature) == 1, feature);

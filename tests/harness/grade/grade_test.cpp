@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(misbehaving_adapter_program_fails_only_its_own_run) {
   BOOST_TEST_REQUIRE(found.runs.size() == kHostile.size());
   for (const results::Run& row : found.runs) {
     const auto& [grade, reason] = kHostile.at(row.case_id);
-    BOOST_TEST(to_string(results::grade_of(row)) == grade, row.case_id << ": " << row.reason);
+    BOOST_TEST(to_string(results::grade_of_run(row)) == grade, row.case_id << ": " << row.reason);
     BOOST_TEST(contains(row.reason, reason), row.case_id << ": " << row.reason);
     BOOST_TEST(row.cost.wall_s < 20, row.case_id);
     std::error_code error;
@@ -145,8 +145,8 @@ BOOST_AUTO_TEST_CASE(grades_not_exported_and_cannot_are_distinct) {
       run(folder, grade_words(adapter, "cannot.json manufactured-timoshenko --variant base")) == 0);
   const std::vector<results::Run> runs = results_in(folder, "trammel-grade").runs;
   BOOST_TEST_REQUIRE(runs.size() == 2U);
-  BOOST_TEST(to_string(results::grade_of(runs[0])) == "cannot");
-  BOOST_TEST(to_string(results::grade_of(runs[1])) == "not exported");
+  BOOST_TEST(to_string(results::grade_of_run(runs[0])) == "cannot");
+  BOOST_TEST(to_string(results::grade_of_run(runs[1])) == "not exported");
   BOOST_TEST(runs[1].reason.rfind("/analysis/", 0) == 0U, runs[1].reason);
 }
 
@@ -208,9 +208,9 @@ BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
   const std::vector<results::Run> runs = results_in(folder, "trammel-grade").runs;
   BOOST_TEST_REQUIRE(runs.size() == 3U);
   for (const results::Run& row : runs)
-    BOOST_TEST(
-        to_string(results::grade_of(row)) == (row.case_id == "portal-frame" ? "cannot" : "agrees"),
-        row.case_id << ": " << row.reason);
+    BOOST_TEST(to_string(results::grade_of_run(row)) ==
+                   (row.case_id == "portal-frame" ? "cannot" : "agrees"),
+               row.case_id << ": " << row.reason);
 }
 
 /// Returns the faults in the table of harness/adapters/README.md, each with the cases that detect
@@ -242,7 +242,7 @@ std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
              fault);
   std::set<std::string> off;
   for (const results::Run& row : results_in(folder, "trammel-grade").runs) {
-    const auto found = results::grade_of(row);
+    const auto found = results::grade_of_run(row);
     if (found == results::Grade::off) off.insert(row.case_id);
     if (found != results::Grade::off)
       BOOST_TEST(to_string(found) == "agrees", fault << " " << row.case_id << ": " << row.reason);

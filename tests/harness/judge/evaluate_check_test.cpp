@@ -61,7 +61,7 @@ struct Bench {
   std::string message;
 };
 
-Bench validation(const char* kind, const Json& window) {
+Bench validation_bench(const char* kind, const Json& window) {
   Bench bench;
   bench.check.erase("tolerance");
   bench.check["role"] = "validation";
@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(bound_judges_the_computed_value_only) {
 }
 
 BOOST_AUTO_TEST_CASE(value_outside_the_recorded_agreement_fails) {
-  Bench bench = validation("agrees", {-0.01, 0.01});
+  Bench bench = validation_bench("agrees", {-0.01, 0.01});
   BOOST_TEST(bench.verdict() == "pass");
   for (const double value : {9.8, 10.2}) {
     bench.set(0, value);
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(value_outside_the_recorded_agreement_fails) {
 }
 
 BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
-  Bench bench = validation("known_discrepancy", {0.1, 0.2});
+  Bench bench = validation_bench("known_discrepancy", {0.1, 0.2});
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
   BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
@@ -250,7 +250,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
 }
 
 BOOST_AUTO_TEST_CASE(known_discrepancy_may_contain_entries_that_agree) {
-  Bench bench = validation("known_discrepancy", {{-0.01, 0.01}, {0.1, 0.2}, {-0.3, -0.2}});
+  Bench bench = validation_bench("known_discrepancy", {{-0.01, 0.01}, {0.1, 0.2}, {-0.3, -0.2}});
   bench.quantities["frequency_Hz"].values = {10.05, 23, 22};
   const auto all = bench.judge_all();
   for (const CheckResult& one : all) BOOST_TEST((one.verdict == Verdict::pass));
@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_may_contain_entries_that_agree) {
 }
 
 BOOST_AUTO_TEST_CASE(number_of_windows_must_equal_the_entries) {
-  Bench bench = validation("agrees", Json::array({-1, 1}));
+  Bench bench = validation_bench("agrees", Json::array({-1, 1}));
   bench.check["expect"]["relative_between"] = {{-1, 1}, {-1, 1}, {-1, 1}};
   BOOST_TEST(bench.verdict() == "pass");
   bench.check["expect"]["relative_between"].push_back({-1, 1});
@@ -267,7 +267,7 @@ BOOST_AUTO_TEST_CASE(number_of_windows_must_equal_the_entries) {
 }
 
 BOOST_AUTO_TEST_CASE(validation_without_expectation_is_recorded) {
-  Bench bench = validation("agrees", {-1, 1});
+  Bench bench = validation_bench("agrees", {-1, 1});
   bench.check.erase("expect");
   bench.set(0, 25);
   const auto all = bench.judge_all();

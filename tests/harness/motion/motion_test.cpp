@@ -17,7 +17,7 @@ double last(const AnalysisResult& result, const std::string& name) {
 }
 
 /// Returns a mass of 1 kg on a spring of 100 N/m along x (w = 10 rad/s) under 1 N.
-Json oscillator() {
+Json oscillator_case() {
   return Json::parse(R"({
     "id": "oscillator", "title": "A mass on a spring",
     "model": {
@@ -32,7 +32,7 @@ Json oscillator() {
 }
 
 Json harmonic() {
-  Json json = oscillator();
+  Json json = oscillator_case();
   json["analysis"] = Json::parse(
       R"({"harmonic": {"from_Hz": 1, "to_Hz": 2, "points": 11, "outputs": ["displacement_x_m:P"],
                        "damping": {"modal": {"ratio": 0.05, "modes": 1}}}})");

@@ -19,9 +19,9 @@ Run run_with(std::initializer_list<Verdict> verdicts) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(run_with_a_failed_check_does_not_agree) {
-  BOOST_TEST(to_string(grade_of(run_with({Verdict::pass}))) == "agrees");
-  BOOST_TEST(to_string(grade_of(run_with({Verdict::pass, Verdict::error}))) == "broken");
-  BOOST_TEST(to_string(grade_of(run_with({Verdict::pass, Verdict::fail}))) == "off");
+  BOOST_TEST(to_string(grade_of_run(run_with({Verdict::pass}))) == "agrees");
+  BOOST_TEST(to_string(grade_of_run(run_with({Verdict::pass, Verdict::error}))) == "broken");
+  BOOST_TEST(to_string(grade_of_run(run_with({Verdict::pass, Verdict::fail}))) == "off");
 }
 
 BOOST_AUTO_TEST_CASE(grades_off_broken_crashed_and_timed_out_are_failures) {

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(missing_run_and_other_verdict_are_changes) {
 namespace {
 
 /// Returns a result set with checks of one value each, whose errors are `error` times a factor.
-Side with_errors(const std::string& label, double error, const std::vector<double>& factors) {
+Side side_with_errors(const std::string& label, double error, const std::vector<double>& factors) {
   Side made = side(label, {{"mass_kg", {1.0}}});
   for (const double factor : factors) {
     results::Check check = mass_check();
@@ -154,8 +154,8 @@ Side with_errors(const std::string& label, double error, const std::vector<doubl
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(compared_results_have_errors_against_references) {
-  const auto found =
-      compared(with_errors("coarse", 0.3, {1, 1, 1.2}), with_errors("fine", 0.1, {1, 1, 50}));
+  const auto found = compared(side_with_errors("coarse", 0.3, {1, 1, 1.2}),
+                              side_with_errors("fine", 0.1, {1, 1, 50}));
   BOOST_TEST(*found.sides[0].median_error == 0.3, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(*found.sides[0].largest_error == 0.36, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(*found.sides[1].largest_error == 5, boost::test_tools::tolerance(1e-9));

@@ -44,8 +44,8 @@ RunOptions into(const fs::path& folder) {
   return options;
 }
 
-std::vector<fs::path> computed_shards(const Folder& folder, const std::vector<Case>& all,
-                                      std::size_t count) {
+std::vector<fs::path> compute_shards(const Folder& folder, const std::vector<Case>& all,
+                                     std::size_t count) {
   std::vector<fs::path> folders;
   for (std::size_t number = 1; number <= count; ++number) {
     folders.push_back(folder.path() / std::to_string(number));
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
   const Folder folder;
   const std::vector<Case> all = cases(folder);
   const std::string whole = results_text(run_cases(all, References(), {}), all);
-  const auto folders = computed_shards(folder, all, 3);
+  const auto folders = compute_shards(folder, all, 3);
   RunOptions options = into(folder.path() / "merged");
   BOOST_TEST(merge_shards({folders[2], folders[0], folders[1]}, options.store)["labels"][0] == "x");
   options.resume = options.any_machine = true;
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
 
 BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
   const Folder folder;
-  const auto folders = computed_shards(folder, cases(folder), 2);
+  const auto folders = compute_shards(folder, cases(folder), 2);
   const fs::path store = folder.path() / "merged";
   const auto said = [&](const std::vector<fs::path>& some) {
     return input_error_message([&] { (void)merge_shards(some, store); });

@@ -42,7 +42,7 @@ double at(const AnalysisResult& result, const std::string& name, const results::
   return values(result, name).at(static_cast<std::size_t>(found - time.begin()));
 }
 
-const std::vector<results::Pose>& instants(const AnalysisResult& result, std::size_t least) {
+const std::vector<results::Pose>& drawn_instants(const AnalysisResult& result, std::size_t least) {
   BOOST_REQUIRE(result.drawing.has_value());
   BOOST_TEST_REQUIRE(result.drawing->poses.size() >= least);
   return result.drawing->poses;
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
     const AnalysisResult result = result_of(on_a_line(analysis));
     const std::string deflection =
         analysis.contains("statics") ? "displacement_x_m:P" : "deflection_m:P";
-    for (const results::Pose& instant : instants(result, 6)) {
+    for (const results::Pose& instant : drawn_instants(result, 6)) {
       BOOST_TEST(instant.nodes.at(kP).first == 0.25 + 0.1 * *instant.time_s, tolerance(1e-12));
       BOOST_TEST(instant.label == time_label(*instant.time_s));
       if (analysis.contains("kinematics")) continue;
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
           (analysis.contains("statics") ? x : std::hypot(x, y)) == at(result, deflection, instant),
           tolerance(1e-9));
     }
-    BOOST_TEST(instants(result, 6).back().time_s.value() == 0.1, tolerance(1e-12));
+    BOOST_TEST(drawn_instants(result, 6).back().time_s.value() == 0.1, tolerance(1e-12));
   }
 }
 
@@ -105,9 +105,9 @@ BOOST_AUTO_TEST_CASE(poses_of_a_large_motion_are_drawn_at_their_positions) {
                            "law": {"rest_to_rest": {"travel": 1, "duration_s": 1}}}}
     }}
   })"));
-  for (const results::Pose& instant : instants(result, 40))
+  for (const results::Pose& instant : drawn_instants(result, 40))
     BOOST_TEST(instant.nodes.at(1).first == at(result, "position_x_m:A", instant), tolerance(1e-9));
-  BOOST_TEST(instants(result, 40).back().time_s.value() == 1, tolerance(1e-12));
+  BOOST_TEST(drawn_instants(result, 40).back().time_s.value() == 1, tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(setting_with_scattered_times_is_kept_as_a_tie) {
   results::CostStudy study = measured(study_json());
   for (std::size_t i : {0U, 1U, 2U}) study.settings[i].time->cpu_s.assign(7, 1.0 + 10.0 * i);
   study.settings[1].time->cpu_s = {11, 1, 11, 300, 11, 11, 11};
-  derive_ratios_and_front(study);
+  derive_time_ratios_and_front(study);
   const std::vector<CostPoint> points = cost_points(study);
   BOOST_TEST(points.size() == 3U);
   BOOST_TEST(points[1].time == 11);

@@ -43,7 +43,7 @@ Estimated estimated(const Json& json) {
 }
 
 /// Returns a manipulator without a specified mesh, as a new user writes it.
-Json own_manipulator() {
+Json user_manipulator() {
   return Json::parse(R"({
     "id": "own-manipulator", "title": "Own 3-RRR",
     "model": {
@@ -77,9 +77,9 @@ Json vibrating_cantilever() {
 
 BOOST_AUTO_TEST_CASE(error_bands_of_frequencies_contain_converged_values) {
   const std::vector<double> converged =
-      estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
-  for (const Json& json : {own_manipulator(), with_links(own_manipulator(), 1),
-                           with_links(own_manipulator(), 2), with_links(own_manipulator(), 6)}) {
+      estimated(with_links(user_manipulator(), 32)).values("frequency_Hz");
+  for (const Json& json : {user_manipulator(), with_links(user_manipulator(), 1),
+                           with_links(user_manipulator(), 2), with_links(user_manipulator(), 6)}) {
     const Estimated found = estimated(json);
     const results::ErrorEstimate& error = found.of("frequency_Hz");
     for (std::size_t mode = 0; mode < converged.size(); ++mode) {
@@ -92,13 +92,13 @@ BOOST_AUTO_TEST_CASE(error_bands_of_frequencies_contain_converged_values) {
 
 BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   const std::vector<double> converged =
-      estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
-  const Estimated by_default = estimated(own_manipulator());
+      estimated(with_links(user_manipulator(), 32)).values("frequency_Hz");
+  const Estimated by_default = estimated(user_manipulator());
   for (std::size_t mode = 0; mode < converged.size(); ++mode)
     BOOST_TEST(by_default.values("frequency_Hz")[mode] == converged[mode],
                boost::test_tools::tolerance(1e-3));
   BOOST_TEST(error_warnings(by_default.errors, 0.01).empty());
-  const auto warnings = error_warnings(estimated(with_links(own_manipulator(), 1)).errors, 0.01);
+  const auto warnings = error_warnings(estimated(with_links(user_manipulator(), 1)).errors, 0.01);
   BOOST_TEST_REQUIRE(!warnings.empty());
   BOOST_TEST(contains(warnings.front(), "frequency_Hz[3, 4 and 5]"));
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(error_bands_of_time_steps_contain_the_exact_motion) {
 /// because the tolerance of the error control permits longer steps.
 BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
   const std::string name = "displacement_x_m:P";
-  Json json = own_manipulator();
+  Json json = user_manipulator();
   json.merge_patch(Json::parse(R"({"model": {"pose": null, "trajectory": {"circle": {"points": 41,
     "center_m": [0.4, 0.23], "radius_m": 0.02, "step_s": 0.005, "angular_speed_rad_s": 31.4}}},
     "analysis": {"modes": null, "elastodynamics": {"initial_state": "quasi-static",
@@ -222,10 +222,10 @@ BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
 BOOST_AUTO_TEST_CASE(accuracy_search_reaches_the_requested_error) {
   const References references;
   const std::vector<double> converged =
-      estimated(with_links(own_manipulator(), 64)).values("frequency_Hz");
+      estimated(with_links(user_manipulator(), 64)).values("frequency_Hz");
   for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
     const AccuracySearch search =
-        search_accuracy(document_of(own_manipulator()), {accuracy, {}, 60}, references);
+        search_accuracy(document_of(user_manipulator()), {accuracy, {}, 60}, references);
     BOOST_TEST(*search.errors.search.back().error <= accuracy);
     const std::vector<double>& found = search.result.quantities.at("frequency_Hz").values;
     double largest = 0;
@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(search_refines_mesh_and_step) {
 BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
   const References references;
   const AccuracySearch search =
-      search_accuracy(document_of(own_manipulator()), {1e-14, {}, 60}, references);
+      search_accuracy(document_of(user_manipulator()), {1e-14, {}, 60}, references);
   BOOST_TEST(!search.reached);
   BOOST_TEST(!search.errors.reason.empty());
   const auto refusal = [&](const Json& json, const std::string& quantity) {
@@ -256,9 +256,9 @@ BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
       (void)search_accuracy(document_of(json), {1e-3, {quantity}, 60}, references);
     });
   };
-  BOOST_TEST(contains(refusal(own_manipulator(), "frequncy_Hz"), "did you mean 'frequency_Hz'"));
-  BOOST_TEST(contains(refusal(own_manipulator(), "degrees_of_freedom"), "an estimated error"));
-  Json rigid = own_manipulator();
+  BOOST_TEST(contains(refusal(user_manipulator(), "frequncy_Hz"), "did you mean 'frequency_Hz'"));
+  BOOST_TEST(contains(refusal(user_manipulator(), "degrees_of_freedom"), "an estimated error"));
+  Json rigid = user_manipulator();
   rigid["analysis"] = {{"kinematics", Json::object()}};
   BOOST_TEST(contains(refusal(rigid, "time_s"), "no mesh and no time step"));
 }
@@ -281,14 +281,14 @@ BOOST_AUTO_TEST_CASE(default_element_count_depends_on_analysis_and_member) {
 }
 
 BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {
-  Json json = own_manipulator();
+  Json json = user_manipulator();
   json["model"]["pose"]["phi_rad"] = 30;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/pose/phi_rad is 30 rad"));
-  json = own_manipulator();
+  json = user_manipulator();
   json["model"]["manipulator"]["links"]["distal_length_m"] = 300;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0),
                       "/model/manipulator/links/distal_length_m is 300 m"));
-  json = own_manipulator();
+  json = user_manipulator();
   json["model"]["manipulator"]["links"]["thickness_m"] = 3;
   BOOST_TEST(
       contains(unit_warnings(document_of(json)).at(0), "links/thickness_m exceeds a length"));

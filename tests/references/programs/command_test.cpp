@@ -54,7 +54,7 @@ class ScratchFile {
   fs::path path_;
 };
 
-bool one_line(const std::string& text) {
+bool is_one_line(const std::string& text) {
   return !text.empty() && text.find('\n') == text.size() - 1;
 }
 
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(invalid_usage_and_input_return_status_2_in_one_line) {
     const Outcome outcome = run(words);
     BOOST_TEST_CONTEXT(words.back()) {
       BOOST_TEST(outcome.status == 2);
-      BOOST_TEST(one_line(outcome.err));
+      BOOST_TEST(is_one_line(outcome.err));
       BOOST_TEST(outcome.err.find(expected) != std::string::npos);
     }
   }

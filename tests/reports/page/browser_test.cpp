@@ -23,7 +23,7 @@ void check_at(int width, const std::string& name) {
   const std::string text = read_text_file(page);
   const std::size_t thumbnails = occurrences(text, "class=\"thumbnail\" inert><svg ");
   const auto figures = static_cast<int>(occurrences(text, "<svg ") - thumbnails);
-  const Visit seen = visit_framed(page, width);
+  const Visit seen = visit_in_frame(page, width);
   BOOST_TEST(measured(seen, "width") == width);
   BOOST_TEST(measured(seen, "figures") == figures);
   BOOST_TEST(measured(seen, "empty") == 0);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(wide_block_and_empty_drawing_are_detected) {
   const auto page = workspace.path() / "wide.html";
   std::ofstream(page) << "<html><body><main><p style='width: 900px'>x</p>"
                          "<figure><svg></svg></figure></main></body></html>";
-  const Visit seen = visit_framed(page, 400);
+  const Visit seen = visit_in_frame(page, 400);
   BOOST_TEST(measured(seen, "width") == 400);
   BOOST_TEST(measured(seen, "wide") == 1);
   BOOST_TEST(measured(seen, "scroll-width") > 400);

@@ -19,7 +19,7 @@ Results with_stress_suite() {
   return results;
 }
 
-std::string stress_suite_of(const Results& results) {
+std::string stress_suite_text(const Results& results) {
   const std::string page = all_pages_of(results);
   const std::size_t from = page.find("<section id=\"stress-suite\">");
   return from == std::string::npos ? "" : page.substr(from, page.find("</section>", from) - from);
@@ -30,7 +30,7 @@ std::string stress_suite_of(const Results& results) {
 BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
   Results results = with_stress_suite();
   results.runs[0].checks[1].verdict = Verdict::fail;  // a check of the indicator "exact"
-  const std::string text = stress_suite_of(results);
+  const std::string text = stress_suite_text(results);
   BOOST_TEST(text.find("3 items, 3 cases, 3 indicators:") != std::string::npos);
   const std::size_t first = text.find("cases/" + results.cases[2].id),
                     third = text.find("cases/" + results.cases[0].id),
@@ -45,10 +45,10 @@ BOOST_AUTO_TEST_CASE(stress_suite_indicator_without_a_run_fails) {
   Results results = with_stress_suite();
   for (CaseInfo& info : results.cases)
     if (info.stress_suite) info.stress_suite->indicators = {"nowhere"};
-  const std::string text = stress_suite_of(results);
+  const std::string text = stress_suite_text(results);
   BOOST_TEST(occurrences(text, "no run has this check") == 3U);
   BOOST_TEST(text.find("3 not run") != std::string::npos);
-  BOOST_TEST(stress_suite_of(sample_results()).empty());
+  BOOST_TEST(stress_suite_text(sample_results()).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

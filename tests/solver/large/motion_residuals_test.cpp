@@ -26,7 +26,7 @@ GeometricallyExactSystem pendulum() {
   return GeometricallyExactSystem(simple_pendulum(), large_motion);
 }
 
-TransientOptions options_for(double end) {
+TransientOptions options_until_end(double end) {
   return options_to(end, 0.01, generalized_alpha(0.9));
 }
 
@@ -35,7 +35,7 @@ TransientOptions options_for(double end) {
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  BOOST_TEST_REQUIRE(integrate(system, state, options_for(0.1)).outcome.solved());
+  BOOST_TEST_REQUIRE(integrate(system, state, options_until_end(0.1)).outcome.solved());
   change(state);
   VectorXd force = VectorXd::Zero(system.coordinate_count());
   system.force_residual(state, force);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
 BOOST_AUTO_TEST_CASE(integration_reports_its_residuals) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  const IntegrationSummary summary = integrate(system, state, options_for(1));
+  const IntegrationSummary summary = integrate(system, state, options_until_end(1));
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
   BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(energy_balances_with_every_kind_of_work) {
        }}};
   const GeometricallyExactSystem system(model, large_motion);
   State state;
-  TransientOptions options = options_for(1);
+  TransientOptions options = options_until_end(1);
   options.scheme.conserves_energy = true;
   const IntegrationSummary summary = integrate(system, state, options);
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);

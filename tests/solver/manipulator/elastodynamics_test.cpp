@@ -23,7 +23,7 @@ Circle circle(double angular_speed) {
   return {.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = angular_speed, .phi = 0};
 }
 
-ElastodynamicsOptions options_on(const Path& path, double end, double step) {
+ElastodynamicsOptions options_on_path(const Path& path, double end, double step) {
   ElastodynamicsOptions options;
   options.design = coarse_design();
   options.path = path;
@@ -35,7 +35,7 @@ ElastodynamicsOptions options_on(const Path& path, double end, double step) {
 /// Returns a platform at rest for 0.1 s under a force that is applied suddenly.
 ElastodynamicsOptions resting(double step) {
   const Pose pose{0.26, 0.15, 0.1};
-  ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.1, step);
+  ElastodynamicsOptions options = options_on_path(RestToRest{pose, pose, 1}, 0.1, step);
   options.wrench = {10, 0, 0};
   return options;
 }
@@ -52,7 +52,7 @@ double relative_change(const ElastodynamicsSolution& with, const ElastodynamicsS
 
 BOOST_AUTO_TEST_CASE(motion_without_inertia_is_statics_at_every_pose) {
   for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
-    ElastodynamicsOptions options = options_on(circle(1), 6, 1.5);
+    ElastodynamicsOptions options = options_on_path(circle(1), 6, 1.5);
     options.design = coarse_design(kind);
     options.wrench = {10, 0, 0};
     options.gravity = {0, -9.81};
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(matrices_of_a_resting_manipulator_are_factored_once) {
 
 BOOST_AUTO_TEST_CASE(effects_of_inertia_and_gyroscopic_terms_are_estimated) {
   ElastodynamicsOptions options =
-      options_on(RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2}, 0.2, 5e-3);
+      options_on_path(RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2}, 0.2, 5e-3);
   options.wrench = {0.1, 0, 0};
   options.elastic_inertia = false;
   const ElastodynamicsSolution with = solve_elastodynamics(options);
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(effects_of_inertia_and_gyroscopic_terms_are_estimated) {
   BOOST_TEST(with.effects.nominal_inertia == relative_change(with, without), tolerance(0.5));
   BOOST_TEST(with.effects.nominal_inertia == without.effects.nominal_inertia);
 
-  options = options_on(circle(10), 0.3, 1e-3);
+  options = options_on_path(circle(10), 0.3, 1e-3);
   options.wrench = {10, 0, 0};
   options.time.quasi_static_start = true;
   const ElastodynamicsSolution plain = solve_elastodynamics(options);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(effects_of_inertia_and_gyroscopic_terms_are_estimated) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
-  ElastodynamicsOptions options = options_on(circle(1), 6, 0.5);
+  ElastodynamicsOptions options = options_on_path(circle(1), 6, 0.5);
   options.wrench = {10, 0, 0};
   options.elastic_inertia = false;
   const ElastodynamicsSolution s = solve_elastodynamics(options);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
 
 BOOST_AUTO_TEST_CASE(path_out_of_reach_ends_with_its_time) {
   const Line line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
-  ElastodynamicsOptions options = options_on(line, 1, 1e-2);
+  ElastodynamicsOptions options = options_on_path(line, 1, 1e-2);
   for (const bool dynamic : {true, false}) {
     options.elastic_inertia = dynamic;
     const ElastodynamicsSolution s = solve_elastodynamics(options);
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(path_out_of_reach_ends_with_its_time) {
 
 BOOST_AUTO_TEST_CASE(quasi_static_deflection_is_that_without_inertia) {
   for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
-    ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-3);
+    ElastodynamicsOptions options = options_on_path(circle(20), 0.05, 1e-3);
     options.design = coarse_design(kind);
     options.wrench = {10, 0, 0};
     options.gyroscopic = true;
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_deflection_is_that_without_inertia) {
 }
 
 BOOST_AUTO_TEST_CASE(mechanism_has_no_quasi_static_deflection) {
-  ElastodynamicsOptions options = options_on(circle(20), 0.01, 1e-3);
+  ElastodynamicsOptions options = options_on_path(circle(20), 0.01, 1e-3);
   options.design.active.fill({ActiveKind::free});
   options.design.elbow.fill({ElbowKind::hinged});
   options.wrench = {10, 0, 0};
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(unsupported_option_combinations_are_refused) {
         o.wrench = {0, 0, 1};
       }};
   for (const auto& change : changes) {
-    ElastodynamicsOptions options = options_on(circle(20), 0.2, 1e-2);
+    ElastodynamicsOptions options = options_on_path(circle(20), 0.2, 1e-2);
     change(options);
     BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
   }

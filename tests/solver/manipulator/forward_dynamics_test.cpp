@@ -23,7 +23,7 @@ std::vector<double> times_to(double end, int count) {
   return times;
 }
 
-double distance(const Pose& a, const Pose& b) {
+double pose_distance(const Pose& a, const Pose& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(inverse_dynamics_torques_reproduce_the_circle) {
     BOOST_TEST_REQUIRE(f.outcome.solved(), f.outcome.reason);
     double worst = 0;
     for (const TrajectoryPoint& p : f.motion)
-      worst = std::max(worst, distance(p.pose, at(circle, p.time).pose));
+      worst = std::max(worst, pose_distance(p.pose, at(circle, p.time).pose));
     BOOST_TEST_MESSAGE("tolerance " << tolerance << ": error " << worst << " m, " << f.steps
                                     << " steps, " << f.rejected << " rejected");
     BOOST_TEST(worst < 100 * tolerance);
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(motion_without_torque_keeps_its_energy) {
   TrajectoryPoint start{0, centered_pose()};
   ForwardDynamics f = solver::forward_dynamics(m, start, none, times_to(1, 4));
   BOOST_TEST_REQUIRE(f.outcome.solved());
-  BOOST_TEST(distance(f.motion.back().pose, start.pose) == 0.0);
+  BOOST_TEST(pose_distance(f.motion.back().pose, start.pose) == 0.0);
 
   start.velocity = {0.1, 0.05, 0.2};
   f = solver::forward_dynamics(m, start, none, times_to(0.5, 10));
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(motion_without_torque_keeps_its_energy) {
   const double energy = inverse_dynamics(m, start).kinetic_energy;
   for (const TrajectoryPoint& p : f.motion)
     BOOST_TEST(inverse_dynamics(m, p).kinetic_energy == energy, tolerance(1e-8));
-  BOOST_TEST(distance(f.motion.back().pose, start.pose) > 0.01);
+  BOOST_TEST(pose_distance(f.motion.back().pose, start.pose) > 0.01);
 }
 
 BOOST_AUTO_TEST_CASE(energy_residual_does_not_depend_on_the_samples) {

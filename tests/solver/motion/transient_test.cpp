@@ -34,7 +34,7 @@ EquationOfMotion chain(Index n, double mass, double stiffness) {
 
 /// Returns a load with two patterns. The factors of both patterns are piecewise linear in time and
 /// jump at 0.3 s.
-PiecewiseLinearLoad rough_load(Index n) {
+PiecewiseLinearLoad load_with_jumps(Index n) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Zero(n, 2);
   load.pattern(n - 1, 0) = 1;
@@ -45,7 +45,7 @@ PiecewiseLinearLoad rough_load(Index n) {
 }
 
 /// Checks that a motion stopped with a reason that contains a text.
-void check_stopped(const TransientSummary& summary, const std::string& reason) {
+void check_stop_reason(const TransientSummary& summary, const std::string& reason) {
   BOOST_TEST((summary.outcome.status == Status::not_converged));
   BOOST_TEST(summary.outcome.reason.find(reason) != std::string::npos, summary.outcome.reason);
 }
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
   EquationOfMotion equation = chain(4, 1, 200);
   const RayleighDamping damping{.mass = 1, .stiffness = 1e-2};
   equation.C = damping_matrix(damping, equation.M, equation.K);
-  const PiecewiseLinearLoad load = rough_load(4);
+  const PiecewiseLinearLoad load = load_with_jumps(4);
   load.apply_to(equation);
   const ModalBasis basis = all_modes(equation.M, equation.K);
   TransientOptions options = options_to(1, 0.1);
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
   TransientOptions options = options_to(1, 0.1);
   options.adaptive = ErrorControl{.relative = 1e-12, .finest_level = 3};
   const TransientHistory h = solve_transient(equation, options);
-  check_stopped(h.summary, "step 1 at time 0 s of size 0.0125 s");
+  check_stop_reason(h.summary, "step 1 at time 0 s of size 0.0125 s");
 }
 
 BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
   BOOST_TEST(solve_transient(equation, options).summary.outcome.solved());
   options.step = 1.05 * 2 / fastest;
   const TransientHistory h = solve_transient(equation, options);
-  check_stopped(h.summary, "use h below");
+  check_stop_reason(h.summary, "use h below");
   BOOST_TEST(h.summary.accepted == 0);
 }
 
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(load_that_is_not_a_number_ends_the_motion) {
   equation.load = [](double t, VectorXd& f) { f.setConstant(t > 0.52 ? std::nan("") : 1.0); };
   TransientOptions options = options_to(1, 0.1);
   const TransientHistory h = solve_transient(equation, options);
-  check_stopped(h.summary, "step 6 at time 0.5 s");
+  check_stop_reason(h.summary, "step 6 at time 0.5 s");
   BOOST_TEST(h.time.size() == 6U);
   BOOST_TEST(h.q.allFinite());
 }

@@ -55,7 +55,7 @@ inline bool has_no_exported_counterpart(const std::string& name, const Json& mod
 /// Returns the scale to which differences of a quantity are relative: the largest magnitude among
 /// the quantities with the same name before the colon. The x and y components of a vector have a
 /// common scale.
-inline double largest_of_same_name(const Quantities& all, const std::string& name) {
+inline double largest_magnitude_of_name(const Quantities& all, const std::string& name) {
   const auto head = [](const std::string& text) {
     const std::string quantity = text.substr(0, text.find(':'));
     const std::size_t axis = std::min(quantity.find("_x_"), quantity.find("_y_"));
@@ -81,7 +81,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
     for (std::size_t i = 0; there && i < quantity.values.size(); ++i) {
       const double a = quantity.values[i], b = found->second.values[i];
       if (a == b || (std::isnan(a) && std::isnan(b))) continue;
-      difference = std::max(difference, std::abs(a - b) / largest_of_same_name(own, name));
+      difference = std::max(difference, std::abs(a - b) / largest_magnitude_of_name(own, name));
     }
     if (difference <= twin.difference) continue;
     twin.difference = difference;

@@ -47,7 +47,7 @@ addEventListener("message", e => Object.assign(document.documentElement.dataset,
 
 }  // namespace
 
-Visit visit_framed(const fs::path& page, int width) {
+Visit visit_in_frame(const fs::path& page, int width) {
   const Workspace workspace;
   std::string text = read_text_file(page);
   text.replace(text.rfind("</body>"), 7, kProbeScript);

@@ -19,7 +19,7 @@ struct Visit {
 ///   data-figures, data-empty        numbers of drawings with and without a size.
 ///   data-wide, data-wide-names      number and names of elements beyond the right side.
 ///   data-misplaced                  number of cells not aligned with the header "Target".
-[[nodiscard]] Visit visit_framed(const std::filesystem::path& page, int width);
+[[nodiscard]] Visit visit_in_frame(const std::filesystem::path& page, int width);
 
 /// Returns the number in data-<name>, or -1 if it is missing.
 [[nodiscard]] int measured(const Visit& visit, const std::string& name);
