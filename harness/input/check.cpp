@@ -63,8 +63,8 @@ Json sweep_keys_of_quantity(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
 
-OrderCriterion read_order(const JsonView& place, const std::string& quantity,
-                          const Json& document) {
+OrderCriterion read_order_check(const JsonView& place, const std::string& quantity,
+                                const Json& document) {
   OrderCriterion order;
   order.sweep = place.text("sweep");
   const Json sweeps = document.value("sweeps", Json::object());
@@ -203,7 +203,7 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
   if (key == "order") {
-    check.order = read_order(place[key], check.quantity, document.value());
+    check.order = read_order_check(place[key], check.quantity, document.value());
     check.why = place[key].text("why");
   }
 }

@@ -109,7 +109,7 @@ double element_size(const std::string& parameter_meaning, double parameter) {
   return parameter_meaning == "size" ? parameter : 1 / parameter;
 }
 
-void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks) {
+void drop_other_values(Sweep& sweep, const Document& document, const std::vector<Check>& checks) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   const auto is_untracked = [&](const auto& item) {
     if (place.has("quantities")) return !place["quantities"].has(item.first);

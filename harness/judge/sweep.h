@@ -26,7 +26,7 @@ enum class TrackedQuantities {
 };
 
 /// Removes from a sweep all quantities that TrackedQuantities::named does not select.
-void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
+void drop_other_values(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
 /// Returns one convergence study for each entry of the tracked quantities of a sweep.
 /// @param element_order  order of convergence of another solver's elements, which replaces the

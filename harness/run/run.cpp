@@ -163,7 +163,7 @@ std::string answer_of_task(Task task, const RunOptions& options) {
     task.run.references = references.hashes();
   }
   if (options.tracked == TrackedQuantities::named)
-    for (Sweep& sweep : task.run.sweeps) drop_untracked(sweep, task.document, task.checks);
+    for (Sweep& sweep : task.run.sweeps) drop_other_values(sweep, task.document, task.checks);
   if (!task.run.cost.timings.empty()) task.run.machine = machine_name();
   return to_bytes(task.run);
 }

@@ -36,7 +36,7 @@ solver::System reduce_if_requested(const JsonView& analysis, const CaseModel& ca
                                    solver::System system) {
   if (!analysis.has("reduction")) return system;
   require_absent(analysis, "count_below_Hz", "reduction",
-                 "the count includes all modes of the full model");
+                 "'count_below_Hz' counts all modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening))
     throw analysis["reduction"].error("expected no geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
@@ -54,7 +54,7 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
     return solver::solve_modes(system, options);
   require_absent(analysis, "count_below_Hz",
                  analysis.has("prestressed") ? "prestressed" : "effects",
-                 "the count refers to the unloaded model");
+                 "'count_below_Hz' counts modes of the unloaded model");
   return solver::solve_prestressed_modes(system, options);
 }
 
@@ -189,7 +189,7 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
 StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
-    require_absent(analysis, "count_below_Hz", "rotating", "the count refers to the model at rest");
+    require_absent(analysis, "count_below_Hz", "rotating", "it counts modes of the model at rest");
     require_absent(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
     require_absent(analysis, "prestressed", "rotating", "'rotating' includes this stiffening");
     if (case_model.path) throw analysis["rotating"].error("'rotating' requires one 'pose'");

@@ -79,7 +79,7 @@ Data front_page_data(const Results& results, const std::vector<Family>& families
 
 /// Returns links to the front page and to the pages of sections, for the navigation bar of the page
 /// at `path`.
-Data page_links(const Data& index, const std::string& path, bool has_references) {
+Data links_to_pages(const Data& index, const std::string& path, bool has_references) {
   Data out = list();
   const auto add = [&](const std::string& title, const std::string& link) {
     out.push_back(object({{"title", title}, {"link", link}, {"is_here", link == path}}));
@@ -175,7 +175,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   std::vector<SiteFile> files;
   const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
-               {"sections", page_links(index, path, !results.references.empty())},
+               {"sections", links_to_pages(index, path, !results.references.empty())},
                {"families", family_contents(sections, path)},
                {"is_index", path == "index.html"},
                {"has_sidebar", path != "index.html" && !families.empty()},

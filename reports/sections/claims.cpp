@@ -61,7 +61,7 @@ ClaimInterpretation deciding_interpretation(const std::vector<ClaimInterpretatio
   return found == all.end() ? all.front() : *found;
 }
 
-Data interpretation_data(const ClaimInterpretation& interpretation, const Results& results) {
+Data data_of_interpretation(const ClaimInterpretation& interpretation, const Results& results) {
   Data cases = list();
   std::vector<std::string> seen;
   for (const ClaimEntry& entry : interpretation.entries) {
@@ -77,7 +77,7 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
 
 Data claim_data(const Claim& claim, const Results& results) {
   const auto interpretation = [&](const ClaimInterpretation& reading) {
-    return interpretation_data(reading, results);
+    return data_of_interpretation(reading, results);
   };
   const ClaimInterpretation deciding = deciding_interpretation(claim.interpretations);
   return with_verdict(

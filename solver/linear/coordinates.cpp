@@ -6,7 +6,7 @@
 namespace trammel::solver {
 namespace {
 
-bool turns_with_node(const MemberEnd& end) {
+bool rotates_with_node(const MemberEnd& end) {
   return end.fixity != EndFixity::hinged;
 }
 
@@ -18,7 +18,7 @@ std::vector<bool> nodes_with_rotation(const Model& model) {
   for (const Member& member : model.members) {
     for (std::size_t end = 0; end < 2; ++end) {
       joined[static_cast<std::size_t>(member.nodes[end])] = true;
-      if (turns_with_node(member.ends[end])) give(member.nodes[end]);
+      if (rotates_with_node(member.ends[end])) give(member.nodes[end]);
     }
   }
   std::vector<bool> held(model.nodes.size(), false);
