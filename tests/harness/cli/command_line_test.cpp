@@ -499,6 +499,8 @@ BOOST_AUTO_TEST_CASE(second_report_computes_only_what_has_changed) {
   changed["model"]["elements"] = 2;
   (void)folder.write(changed);
   BOOST_TEST(!contains(run(folder, "report cantilever.json --out mine").out, "stored"));
+  (void)run(folder, "report --out mine cantilever.json " + folder.write(judged(9, "b")).string());
+  BOOST_TEST(contains(read_text(folder.path() / "mine/environment.html"), "1 of 2 runs with"));
 }
 
 BOOST_AUTO_TEST_CASE(reason_of_a_singular_run_is_printed_once) {
