@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(missing_quantity_is_an_error_with_a_suggestion) {
   BOOST_TEST(contains(bench.message, "no quantity 'frequncy_Hz'; did you mean 'frequency_Hz'?"));
   bench.check["quantity"] = "frequency_Hz:1";
   BOOST_TEST(bench.verdict() == "error");
-  BOOST_TEST(contains(bench.message, "the key 'index' selects an entry"));
+  BOOST_TEST(contains(bench.message, "the key 'index' selects a value"));
 }
 
 BOOST_AUTO_TEST_CASE(wrong_length_is_an_error) {

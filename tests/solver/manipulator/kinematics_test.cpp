@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(pose_out_of_reach_names_limb_and_distance) {
   BOOST_TEST(inverse_kinematics(stiff, {0.25, 0.144, 0})
                  .outcome.reason.find("within the difference of its link") != std::string::npos);
   BOOST_TEST(inverse_kinematics(g, {0.1, 0.1 / std::numbers::sqrt3, 0})
-                 .outcome.reason.find("limb 1 (A1-B1-C1) has C on A") == 0U);
+                 .outcome.reason.find("limb 1 (A1-B1-C1) has C at A") == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(elbow_angle_keeps_its_digits_near_full_stretch) {
