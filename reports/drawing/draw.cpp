@@ -113,7 +113,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     // With -d, gnuplot ignores the settings of the user. The command `timeout` ends gnuplot if it
     // hangs.
     const std::string command =
-        "timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d";
+        "LC_ALL=C.UTF-8 timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d";
     std::array<Gnuplot, 2> both{{Gnuplot(command), Gnuplot(command)}};  // two concurrent processes
     std::size_t number = 0;
     for (const Figure* figure : figures)

@@ -189,7 +189,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
       .caption =
           "Undeformed (gray) and deformed (blue) shapes, each scaled so that its largest "
           "displacement is " +
-          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the model's longer side. " +
+          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side. " +
           (modes ? modes_text(drawing, hertz) : displacements_text(drawing, factors, side)) +
           (slowed > 0
                ? " Hover or focus shows the motion, slowed down " + trimmed(slowed, 2) + " times."

@@ -39,9 +39,9 @@ std::string conclusion(const std::vector<EffectScene>& scenes) {
   }
   return std::to_string(within) + " of " + count(scenes.size(), "scene") +
          " stay within the tolerance (below the line). In " + std::to_string(minimal) +
-         " of the scenes, no selected effect can be omitted. Selection and run took " +
+         ", no selected effect can be omitted. Selection and run took " +
          trimmed(all_effects_s > 0 ? selected_s / all_effects_s : 0, 3) +
-         " times as long as the runs with all effects.";
+         " times as long as running with all effects.";
 }
 
 /// Returns the caption of the figure of work and time of the calls of the program trammel.
@@ -154,7 +154,7 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
   return {scatter({.id = "effects-obtained",
                    .title = "Automatic selection of effects: obtained change against tolerance",
                    .caption = "Change of the results caused by omitting effects, against the "
-                              "requested tolerance, one point per case (scene). " +
+                              "requested tolerance, one point per scene. " +
                               conclusion(scenes),
                    .data = table_of(scenes)},
                   curves, "tolerance: requested limit of the change", "obtained change",

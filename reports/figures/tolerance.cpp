@@ -178,7 +178,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   return Figure{.id = slug(family + "-tolerance"),
                 .title = largest_only ? "Largest fraction of the tolerance in each case"
                                       : "Fraction of the tolerance used by each check",
-                .caption = "Difference divided by tolerance. The line is the limit. " + caption,
+                .caption = "Difference over tolerance; the line is the limit. " + caption,
                 .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
                 .height = 105 + (largest_only ? 8
                                  : many       ? 28

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(caption_counts_accurate_and_minimal_scenes) {
   const std::vector<Figure> figures = effect_scene_figures(kScenes);
   BOOST_TEST_REQUIRE(figures.size() == 1U);
   BOOST_TEST(contains(figures[0].caption, "2 of 3 scenes stay within"));
-  BOOST_TEST(contains(figures[0].caption, "In 2 of the scenes, no selected effect"));
+  BOOST_TEST(contains(figures[0].caption, "In 2, no selected effect"));
   BOOST_TEST(contains(figures[0].caption, "took 0.915 times as long"));
   BOOST_TEST(figures[0].data.rows.size() == 3U);
   BOOST_TEST(effect_scene_figures({}).empty());
