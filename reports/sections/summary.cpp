@@ -182,7 +182,7 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
 /// Returns the most frequent reasons of known discrepancies with their numbers of values, and the
 /// number of values with other reasons.
 Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
-  constexpr std::ptrdiff_t kShown = 5;
+  constexpr std::ptrdiff_t kShown = 4;
   std::map<std::string, std::size_t> entries;
   for (const KnownDiscrepancy& discrepancy : known)
     for (const auto& entry : discrepancy.entries) ++entries[entry.second->why];
