@@ -38,7 +38,7 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group)
 
 int coverage_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
-  add_missing_evidence_reasons(rows);
+  explain_missing_evidence(rows);
   if (!options.word.empty()) {
     const auto file = results_file_path(options.word);
     if (read_json_if_results(file).is_null())

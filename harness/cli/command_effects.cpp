@@ -124,8 +124,8 @@ void print_study(const EffectStudy& study) {
 }
 
 /// Writes results.json and a page with the effects selected in the cases `scenes`.
-void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
-                  const Renderers& renderers) {
+void write_effect_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
+                         const Renderers& renderers) {
   results::Results results = collect_results({}, {}, References());
   results.effect_scenes = std::move(scenes);
   const OutputLock lock(options.out);
@@ -217,7 +217,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     all_hold = all_hold && holds(study);
   }
   progress.reset();
-  if (!options.out.empty()) write_scenes(std::move(scenes), options, renderers);
+  if (!options.out.empty()) write_effect_scenes(std::move(scenes), options, renderers);
   if (options.json) {
     std::cout << format_json(json, 3);
   } else {

@@ -325,7 +325,7 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   results.claims->items = load_paper_items(document, Catalogue());
   judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(cases, references);
-  add_missing_evidence_reasons(results.coverage);
+  explain_missing_evidence(results.coverage);
   count_quantity_runs(results, results.coverage);
   results.effect_scenes = catalogue_effect_scenes(store, resume || measured);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';

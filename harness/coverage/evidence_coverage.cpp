@@ -220,7 +220,7 @@ std::vector<CoverageRow> evidence_coverage(const std::vector<Case>& cases,
   return coverage.rows();
 }
 
-void add_missing_evidence_reasons(std::vector<CoverageRow>& rows) {
+void explain_missing_evidence(std::vector<CoverageRow>& rows) {
   const auto file = data_root() / "cases" / "schema" / "without_evidence.json";
   const Json stated = read_json(file);
   for (const auto& [group, reasons] : stated.items())

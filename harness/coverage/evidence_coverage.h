@@ -41,7 +41,7 @@ using CaseFeatures = std::set<std::string>;
 
 /// Adds the reasons for missing independent evidence from cases/schema/without_evidence.json.
 /// @throws InputError  if the file contains a reason for an unknown or a verified feature.
-void add_missing_evidence_reasons(std::vector<results::CoverageRow>& rows);
+void explain_missing_evidence(std::vector<results::CoverageRow>& rows);
 
 /// Counts the runs that record each quantity, and the runs in which a check of the quantity passed.
 void count_quantity_runs(const results::Results& results, std::vector<results::CoverageRow>& rows);

@@ -124,11 +124,11 @@ Json rows_of(const std::string& kind, const AnalysisResult& own,
     if (!is_estimated(name) || (name == "frequency_Hz" && kind == "harmonic")) continue;
     const results::ErrorEstimate* estimate = errors.find(name);
     const std::vector<double> truths = values_on(levels.back(), own, name);
-    const std::vector<double> befores = values_on(levels[levels.size() - 2], own, name);
+    const std::vector<double> previous = values_on(levels[levels.size() - 2], own, name);
     const bool is_curve = estimate && estimate->relative.size() < quantity.values.size();
     Json largest;
     for (std::size_t i = 0; i < quantity.values.size(); ++i) {
-      const double value = quantity.values[i], truth = truths[i], before = befores[i];
+      const double value = quantity.values[i], truth = truths[i], before = previous[i];
       const double size = std::max(std::abs(value), estimate ? estimate->scale.value_or(0) : 0);
       if (!(size > 0) || std::isnan(truth + before)) continue;
       Json row = {name, estimate ? number_or_null(estimate->relative[is_curve ? 0 : i]) : Json(),
