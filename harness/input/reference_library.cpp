@@ -166,8 +166,7 @@ std::string References::find(const std::string& name, const std::string& case_fi
   looked_for.push_back(stored().string());
   for (const auto& item : catalogue()) names.push_back(item.first);
   if (exists(own))
-    for (const std::string_view key : references::top_level_keys(family(own).file.text))
-      names.emplace_back(key);
+    for (const references::JsonMember& member : members(own)) names.emplace_back(member.key);
   throw id.error("expected the name of a reference (got '" + printable(name) +
                  "', which is not in " + join(looked_for, "or") + ")" + did_you_mean(name, names));
 }

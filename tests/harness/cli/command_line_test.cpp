@@ -95,7 +95,7 @@ const Folder& files() {
       (void)folder.write(json);
     (void)folder.write("broken.json", "{\"id\": ");
     (void)folder.write("other.json", R"({"a": 1})");
-    (void)folder.write("references.json", R"({"nowhere-near": {}})");
+    (void)folder.write("references.json", R"({"first": {}, "nowhere-near": {}})");
     std::filesystem::create_directories(folder.path() / "blocked/index.html/inside");
     return run(folder, "run holds.json --out results").status == 0;
   }();
