@@ -48,7 +48,7 @@ StepResult run_case_model_analysis(const AnalysisKind& kind, const JsonView& ana
 
 /// Returns the result of an analysis. The status "solved" requires a solution, sufficiently small
 /// residuals and finite numbers.
-AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
+AnalysisResult make_result(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
     result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
@@ -68,7 +68,7 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
 
 /// Records, for each automatically selected physical effect, its dimensionless number and the
 /// change of the results without it. Checks of a case can refer to these quantities.
-void record_evidence(const EffectChoice& choice, Recorder& record) {
+void record_effect_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {
     const EffectEvidence& evidence = choice.automatic->evidence[static_cast<std::size_t>(effect)];
@@ -93,9 +93,10 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     if (!posture.outcome.solved()) return;
     const double now = solver::jacobians(geometry, point.pose, posture).parallel.determinant();
     if (before * now < 0) {
-      add_warning(warnings,
-                  {"the time of the first point after a parallel singularity", point.time, " s",
-                   "rigid links need infinite torques at singular poses; hinged links soften"});
+      add_warning(
+          warnings,
+          {"the time of the first point after a parallel singularity", point.time, " s",
+           "rigid links require infinite torques at a singular pose; hinged links soften near it"});
       return;
     }
     if (now != 0) before = now;
@@ -119,12 +120,12 @@ std::string analysis_kind(const Document& document) {
 
 AnalysisResult analyze(const Document& document, const References& references,
                        const AnalysisOptions& options) {
-  require_memory(document);
+  require_sufficient_memory(document);
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
   if (!kind.needs_model(document)) {
     const RoundingScope scope;
-    return result_of(kind, kind.of_case(document, references, options.drawing, record), record);
+    return make_result(kind, kind.of_case(document, references, options.drawing, record), record);
   }
   const JsonView place = JsonView(document)["analysis"][kind.name];
   CaseModel case_model = read_case_model(document);
@@ -134,8 +135,8 @@ AnalysisResult analyze(const Document& document, const References& references,
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
-    record_evidence(choice, record);
-    AnalysisResult result = result_of(
+    record_effect_evidence(choice, record);
+    AnalysisResult result = make_result(
         kind, run_case_model_analysis(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
@@ -143,7 +144,7 @@ AnalysisResult analyze(const Document& document, const References& references,
     if (choice.is_beyond_linear_theory())
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
-           "above the tolerance; fixed time steps and driven actuators would allow this effect"});
+           "above the tolerance; the effect requires fixed time steps and driven actuators"});
     return result;
   });
 }

@@ -57,7 +57,7 @@ std::vector<Json> option_combinations(const JsonView& place) {
   return found;
 }
 
-Options options_of(const JsonView& place, const std::string& kind) {
+Options options_of_analysis(const JsonView& place, const std::string& kind) {
   Options options{{Json::object()}, false, {}};
   const auto own = place["analyses"].find(kind);
   if (!own) return options;
@@ -129,7 +129,7 @@ std::string computation_key(const Document& document) {
 void run_combinations(const Document& document, const JsonView& place, const References& references,
                       std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
-  const Options options = options_of(place, kind);
+  const Options options = options_of_analysis(place, kind);
   const Origin written = place.document().origin(place["analyses"].pointer());
   std::optional<AnalysisResult> first;
   for (const Json& combination : options.combinations) {
@@ -162,7 +162,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
 std::vector<Document> cases_to_compute(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;
-  std::vector<Level> all = study_levels(document);
+  std::vector<Level> all = cases_of_study_levels(document);
   if (!choice.has("levels")) {
     for (Level& level : all) found.push_back(std::move(level.document));
     return found;

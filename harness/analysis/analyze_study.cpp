@@ -14,7 +14,7 @@ namespace {
 
 /// Returns the case with the analysis that the study repeats (inner analysis) in place of the
 /// study.
-Document with_inner_analysis(Document document) {
+Document case_with_inner_analysis(Document document) {
   const Json inner = document.value().at("analysis").at("study").at("analysis");
   const Origin written = document.origin("/analysis/study/analysis");
   document.apply_patch(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
@@ -71,9 +71,9 @@ std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, cons
 
 /// Records the relative errors of a quantity at all parameter values, their ratios to the predicted
 /// round-off error, and the parameter with the smallest error.
-void record_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
-                   const std::vector<double>& parameter, const JsonView& keep,
-                   const References& references, Recorder& record) {
+void record_relative_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
+                            const std::vector<double>& parameter, const JsonView& keep,
+                            const References& references, Recorder& record) {
   if (!keep.has("reference") && !keep.has("relative_to")) return;
   const std::vector<double> reference_solution = reference_values(kept, keep, references);
   double min_error = std::numeric_limits<double>::infinity(), best = kNaN;
@@ -98,7 +98,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
 
 /// Returns a case for each point of the platform's trajectory. The parameter of the study is the
 /// time.
-std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
+std::vector<Level> path_point_levels(const Document& document, const JsonView& study) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.path) throw study["trajectory"].error("this key requires /model/trajectory");
   const Origin written = document.origin("/model/trajectory");
@@ -115,15 +115,15 @@ std::vector<Level> trajectory_levels(const Document& document, const JsonView& s
 
 }  // namespace
 
-std::vector<Level> study_levels(const Document& document) {
+std::vector<Level> cases_of_study_levels(const Document& document) {
   const JsonView study = JsonView(document)["analysis"]["study"];
   if (study["analysis"].has("study"))
     throw study["analysis"].error("a study cannot contain a study; expected another analysis");
   const bool along = study.get("trajectory", false);
   if (along == study.has("values"))
     throw study.error("expected exactly one of 'values' and 'trajectory'");
-  auto found = along ? trajectory_levels(document, study) : sweep_levels(document, study);
-  for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
+  auto found = along ? path_point_levels(document, study) : sweep_levels(document, study);
+  for (Level& level : found) level.document = case_with_inner_analysis(std::move(level.document));
   return found;
 }
 
@@ -136,7 +136,7 @@ StepResult analyze_study(const Document& document, const References& references,
   std::vector<std::vector<KeptQuantity>> kept(keep.size());
   std::vector<double> parameter;
   StepResult result;
-  for (const Level& level : study_levels(document)) {
+  for (const Level& level : cases_of_study_levels(document)) {
     AnalysisResult found = analyze(level.document, references, {draw && !result.drawing});
     parameter.push_back(level.parameter);
     record.add(study.get<std::string>("parameter", "parameter"), level.parameter);
@@ -155,7 +155,7 @@ StepResult analyze_study(const Document& document, const References& references,
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
     for (const KeptQuantity& one : kept[k]) record.add_or_missing(name, "", one.value);
-    record_errors(name, kept[k], parameter, place, references, record);
+    record_relative_errors(name, kept[k], parameter, place, references, record);
   }
   return result;
 }

@@ -27,6 +27,6 @@ AnalyseCase analyze_model_probabilities;
 
 /// Returns a case for each parameter value of a study. These cases have the analysis that the study
 /// repeats for each value.
-[[nodiscard]] std::vector<Level> study_levels(const Document& document);
+[[nodiscard]] std::vector<Level> cases_of_study_levels(const Document& document);
 
 }  // namespace trammel::harness

@@ -16,14 +16,14 @@ const EffectRules* find_effect_rules(const Document& document) {
   return find_analysis(analysis_kind(document)).effects;
 }
 
-JsonView analysis_place(const Document& document) {
+JsonView analysis_view(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
 /// Returns the value of the analysis key that switches a physical effect on or off; empty if the
 /// key is absent.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
-  std::optional<JsonView> place = analysis_place(document);
+  std::optional<JsonView> place = analysis_view(document);
   for (const char* key : effect_key.place)
     if (place) place = place->find(key);
   return place;
@@ -31,11 +31,11 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
 
 /// Returns the physical effects of a case without the key "effects". Other keys of the model and of
 /// the analysis switch these effects on or off.
-Effects stated_effects(const Document& document, const EffectScope& scope) {
+Effects effects_of_keys(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))
     stated = stated.without(Effect::large_displacement);
-  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_view(document))) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
     stated = scope.remove_with_dependents(stated, effect_key.effect);
@@ -61,7 +61,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
     row.applicable = scope.applicable.has(effect);
     row.active = row.applicable && chosen.has(effect);
     row.why = !row.applicable              ? reason_not_applicable(effect, scope, rules)
-              : scope.required.has(effect) ? reason_required(effect)
+              : scope.required.has(effect) ? reason_why_effect_is_required(effect)
               : row.active                 ? reason
                                            : "not " + reason;
   }
@@ -91,8 +91,8 @@ Effects read_effects(const JsonView& names, const EffectScope& scope, const Effe
   return chosen;
 }
 
-std::string describe_decision(Effect effect, const EffectScope& scope,
-                              const EffectSelection& selection, double tolerance) {
+std::string describe_effect_decision(Effect effect, const EffectScope& scope,
+                                     const EffectSelection& selection, double tolerance) {
   const EffectEvidence& evidence = selection.evidence[static_cast<std::size_t>(effect)];
   const bool is_chosen = selection.chosen.has(effect);
   const std::optional<double> change = evidence.cumulative;
@@ -112,13 +112,13 @@ std::string describe_decision(Effect effect, const EffectScope& scope,
                               : "kept: the effect changes only matrix entries and costs no time";
 }
 
-EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
-                                  const EffectScope& scope, double tolerance) {
+EffectChoice choose_effects_automatically(const Document& document, const CaseModel& case_model,
+                                          const EffectScope& scope, double tolerance) {
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   EffectChoice choice;
   choice.tolerance = tolerance;
   const EffectSelection& selection = choice.automatic.emplace(
-      select_effects(kind, analysis_place(document), case_model, scope, tolerance));
+      select_effects(kind, analysis_view(document), case_model, scope, tolerance));
   choice.chosen = selection.chosen;
   choice.rows = effect_rows(scope, choice.chosen, *kind.effects, "");
   for (const Effect effect : scope.applicable.list()) {
@@ -130,7 +130,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     row.own_change = evidence.own;
     row.cumulative_change = evidence.cumulative;
     row.why = selection.outcome.solved()
-                  ? describe_decision(effect, scope, selection, tolerance)
+                  ? describe_effect_decision(effect, scope, selection, tolerance)
                   : "kept: the coarse mesh has no solution (" + selection.outcome.reason + ")";
   }
   if (selection.beyond_tier)
@@ -147,7 +147,7 @@ bool supports_effects(const Document& document) {
 
 EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
   const solver::Model model = model_at_path_start(case_model);
-  EffectScope scope = find_effect_rules(document)->scope(analysis_place(document), model);
+  EffectScope scope = find_effect_rules(document)->scope(analysis_view(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(Effect::platform_flexibility);
     // Plates that do not belong to a platform always remain flexible.
@@ -169,30 +169,30 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   const EffectScope scope = effect_scope(document, case_model);
   EffectChoice choice;
   if (!requested) {
-    choice.chosen = stated_effects(document, scope);
+    choice.chosen = effects_of_keys(document, scope);
     choice.rows = effect_rows(scope, choice.chosen, rules, "specified by model and analysis");
     return choice;
   }
-  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_view(document))) {
     const auto specified = find_key(document, effect_key);
     if (!specified) continue;
     throw specified->error("'effects' excludes this key, which specifies the same effect: " +
                            std::string(solver::name_of(effect_key.effect)));
   }
   if (requested->json().is_object())
-    return choose_automatically(document, case_model, scope,
-                                (*requested)["auto"].number("tolerance"));
+    return choose_effects_automatically(document, case_model, scope,
+                                        (*requested)["auto"].number("tolerance"));
   choice.chosen = read_effects(*requested, scope, rules);
   choice.rows = effect_rows(scope, choice.chosen, rules, "requested");
   return choice;
 }
 
-Document with_effects(const Document& document, Effects effects) {
+Document apply_effects(const Document& document, Effects effects) {
   Document changed = document;
   Json names = Json::array();
   for (const Effect effect : effects.list()) names.push_back(std::string(solver::name_of(effect)));
   Json patch = {{"effects", names}};
-  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_place(document))) {
+  for (const EffectKey& effect_key : find_effect_rules(document)->keys(analysis_view(document))) {
     std::string pointer = "/analysis/" + analysis_kind(document);
     const bool below =
         effect_key.place.size() > 1;  // a nested key must not create its parent object

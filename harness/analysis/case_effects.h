@@ -42,6 +42,6 @@ struct EffectChoice {
 [[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
 
 /// Returns the case with the key "effects" set to the names of the given effects.
-[[nodiscard]] Document with_effects(const Document& document, solver::Effects effects);
+[[nodiscard]] Document apply_effects(const Document& document, solver::Effects effects);
 
 }  // namespace trammel::harness

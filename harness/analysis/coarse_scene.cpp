@@ -12,7 +12,7 @@ namespace {
 using solver::Effects;
 
 /// Returns pointers to the element counts of all members and links.
-std::vector<solver::Index*> element_count_pointers(CaseModel& scene) {
+std::vector<solver::Index*> find_element_counts(CaseModel& scene) {
   std::vector<solver::Index*> counts;
   for (solver::Member& member : scene.structure.members) counts.push_back(&member.elements);
   if (!scene.manipulator) return counts;
@@ -25,7 +25,7 @@ std::vector<solver::Index*> element_count_pointers(CaseModel& scene) {
 
 CaseModel coarsen_scene(CaseModel scene, solver::Index elements) {
   scene.estimates_large_displacement = true;
-  for (solver::Index* count : element_count_pointers(scene)) *count = std::min(*count, elements);
+  for (solver::Index* count : find_element_counts(scene)) *count = std::min(*count, elements);
   if (!scene.manipulator || scene.manipulator->platform.pin_radius > 0) return scene;
   scene.manipulator->platform.refinements = 0;
   scene.manipulator->platform.six_nodes = false;
@@ -50,7 +50,7 @@ double CoarseScene::max_result_change(Effects all_effects, Effects effects,
                                       const std::set<std::size_t>& steps) {
   const auto full = results_at_steps(all_effects, steps), other = results_at_steps(effects, steps);
   if (!full || !other) return std::numeric_limits<double>::infinity();
-  return max_change(changes_between(*full, *other, size_)).value;
+  return max_change(result_changes(*full, *other, size_)).value;
 }
 
 std::optional<Quantities> CoarseScene::results_at_steps(Effects effects,

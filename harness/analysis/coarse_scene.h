@@ -37,7 +37,7 @@ class CoarseScene {
         analysis_(analysis),
         scene_(coarsen_scene(scene, elements)),
         model_(model_at_path_start(scene_)),
-        size_(typical_scales(model_)) {}
+        size_(typical_model_scales(model_)) {}
 
   /// Returns the largest relative change of the results at the points `steps` of the path if
   /// `all_effects` are replaced by `effects`. Returns infinity if a model has no solution at one of

@@ -21,7 +21,7 @@ const Quantity* find_y_component(const Quantities& all, const std::string& name)
 
 /// Returns the magnitudes of a quantity's values. For the x component of a vector, returns the
 /// magnitudes of the vector.
-std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
+std::vector<double> value_magnitudes(const Quantities& all, const std::string& name) {
   std::vector<double> size = all.at(name).values;
   const Quantity* second = find_y_component(all, name);
   for (std::size_t i = 0; i < size.size(); ++i) {
@@ -68,7 +68,7 @@ std::map<std::string, double> change_scales(const Quantities& full, const ModelS
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
     const std::string kind = quantity_group(name);
-    if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(magnitudes(full, name)));
+    if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(value_magnitudes(full, name)));
   }
   const auto floor = [&](const char* kind, double size) {
     const auto found = scale.find(kind);
@@ -101,7 +101,7 @@ double member_length(const solver::Model& model, const solver::Member& member) {
       .norm();
 }
 
-ModelScales typical_scales(const solver::Model& model) {
+ModelScales typical_model_scales(const solver::Model& model) {
   ModelScales scales;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   for (const solver::Node& node : model.nodes)
@@ -135,7 +135,7 @@ ModelScales typical_scales(const solver::Model& model) {
   return scales;
 }
 
-Changes changes_between(const Quantities& full, const Quantities& other, const ModelScales& model) {
+Changes result_changes(const Quantities& full, const Quantities& other, const ModelScales& model) {
   const auto scale = change_scales(full, model);
   Changes changes;
   for (const auto& [kind, by] : scale) changes[kind] = {};

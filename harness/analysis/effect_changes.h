@@ -22,7 +22,7 @@ struct ModelScales {
   /// stiffness of the model.
   double displacement = 0;
 };
-[[nodiscard]] ModelScales typical_scales(const solver::Model& model);
+[[nodiscard]] ModelScales typical_model_scales(const solver::Model& model);
 
 /// Returns the scale of the changes of each group of quantities, such as forces. The scale is the
 /// largest value of the group, or the round-off error of the group if the round-off error is
@@ -36,8 +36,8 @@ struct ModelScales {
 /// compared, nor are quantities that only one of the two results contains, such as rotations of a
 /// rigid platform.
 using Changes = std::map<std::string, LargestDifference>;
-[[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
-                                      const ModelScales& model);
+[[nodiscard]] Changes result_changes(const Quantities& full, const Quantities& other,
+                                     const ModelScales& model);
 [[nodiscard]] LargestDifference max_change(const Changes& changes);
 
 /// Returns the group of quantities that share a scale with this quantity, such as "displacement" or

@@ -14,7 +14,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Returns the highest of the first natural angular frequencies of all members, each clamped at one
 /// end [rad/s].
-double highest_first_frequency(const solver::Model& model) {
+double max_first_natural_frequency(const solver::Model& model) {
   double highest = 0;
   for (const solver::Member& member : model.members) {
     const solver::Section& section = member.section;
@@ -66,7 +66,7 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
   } else if (analysis_name == "transient" || analysis_name == "large-motion") {
     const char* const end = analysis_name == "transient" ? "duration_s" : "end_time_s";
     scale.phase = scale.platform =
-        std::max(1.0, highest_first_frequency(model) * analysis.number(end) / 2);
+        std::max(1.0, max_first_natural_frequency(model) * analysis.number(end) / 2);
   }
   return scale;
 }
@@ -100,7 +100,7 @@ EffectNumbers dimensionless_numbers(const solver::Model& model, const ResponseSc
   }
   for (const solver::Plate& plate : model.plates)
     membrane = std::min(membrane, plate.material.E * plate.thickness);
-  const ModelScales size = typical_scales(model);
+  const ModelScales size = typical_model_scales(model);
   EffectNumbers numbers;
   numbers.fill({std::nullopt, kInfinite});
   const auto set = [&](Effect effect, double value, double of_change) {

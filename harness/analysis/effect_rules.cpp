@@ -33,7 +33,7 @@ constexpr std::array<const char*, 4> all(const char* text) {
   return {text, text, text, text};
 }
 
-const EffectWords& words_of(Effect effect) {
+const EffectWords& words_of_effect(Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
       {"(k r)^2, k = n pi / L", all("no member has both bending and axial flexibility ('axial')")},
@@ -178,7 +178,7 @@ std::vector<EffectKey> no_keys(const JsonView&) {
   return {};
 }
 
-std::vector<EffectKey> modes_keys(const JsonView& analysis) {
+std::vector<EffectKey> effect_keys_of_modes(const JsonView& analysis) {
   if (analysis.has("rotating")) return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
   return {{Effect::geometric_stiffening, {"prestressed"}, false}};
 }
@@ -204,14 +204,14 @@ Effects EffectScope::remove_with_dependents(Effects set, Effect effect) const {
 }
 
 const char* EffectRules::reason_not_applicable(Effect effect) const {
-  return words_of(effect).missing[column];
+  return words_of_effect(effect).missing[column];
 }
 
 const char* dimensionless_number_formula(Effect effect) {
-  return words_of(effect).number;
+  return words_of_effect(effect).number;
 }
 
-const char* reason_required(Effect effect) {
+const char* reason_why_effect_is_required(Effect effect) {
   if (effect == Effect::damping) return "required: only damping limits a resonance";
   return effect == Effect::axial_flexibility
              ? "required: inextensible links would increase the computing time"
@@ -228,7 +228,7 @@ const EffectRules kStaticsEffects = {
     },
     effects_in_statics, 0};
 
-const EffectRules kModesEffects = {modes_keys, effects_in_modes, 1};
+const EffectRules kModesEffects = {effect_keys_of_modes, effects_in_modes, 1};
 
 const EffectRules kElastodynamicsEffects = {
     [](const JsonView&) -> std::vector<EffectKey> {

@@ -49,7 +49,7 @@ struct EffectRules {
 /// Returns the formula of an effect's dimensionless number; empty if the effect has no number.
 [[nodiscard]] const char* dimensionless_number_formula(solver::Effect effect);
 /// Returns the reason why an effect is required.
-[[nodiscard]] const char* reason_required(solver::Effect effect);
+[[nodiscard]] const char* reason_why_effect_is_required(solver::Effect effect);
 
 extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects, kHarmonicEffects,
     kTransientEffects, kLargeMotionEffects;

@@ -172,7 +172,7 @@ class Selector {
       const auto full = coarse.results_at_steps(all, every),
                  other = coarse.results_at_steps(effects, every);
       if (!full || !other) return kInfinite;
-      const auto worst = max_change(changes_between(*full, *other, coarse.model_scales()));
+      const auto worst = max_change(result_changes(*full, *other, coarse.model_scales()));
       if (worst.value <= kForCoarseModel * rest() || !steps.insert(worst.index).second)
         return std::max(change, worst.value);
     }
@@ -383,7 +383,7 @@ class Selector {
     const auto linear = equilibria(solver::solve_elastodynamics, options);
     if (!exact || !linear) return std::nullopt;
     return growth *
-           max_change(changes_between(*exact, *linear, typical_scales(coarse_model_))).value;
+           max_change(result_changes(*exact, *linear, typical_model_scales(coarse_model_))).value;
   }
 
   template <class Solve>

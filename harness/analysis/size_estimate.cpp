@@ -185,7 +185,7 @@ SizeEstimate estimate_problem_size(const Document& document) {
   return Estimator(document).run();
 }
 
-void require_memory(const Document& document, double max_memory) {
+void require_sufficient_memory(const Document& document, double max_memory) {
   const SizeEstimate size = estimate_problem_size(document);
   const bool countable = size.non_zeros <= std::numeric_limits<int>::max();
   if (countable && size.bytes <= max_memory) return;

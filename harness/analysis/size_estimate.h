@@ -26,7 +26,7 @@ struct SizeEstimate {
 /// Rejects a computation that requires too much memory.
 /// @throws InputError  at the key that causes the most memory, if the estimate exceeds `max_memory`
 ///     or a matrix factor has more non-zeros than a 32-bit integer can count.
-void require_memory(const Document& document,
-                    double max_memory = static_cast<double>(memory_limit_bytes()));
+void require_sufficient_memory(const Document& document,
+                               double max_memory = static_cast<double>(memory_limit_bytes()));
 
 }  // namespace trammel::harness

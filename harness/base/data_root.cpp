@@ -9,14 +9,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool holds_the_data(const fs::path& folder) {
+bool has_case_schema(const fs::path& folder) {
   std::error_code error;
   return fs::exists(folder / "cases" / "schema" / "case.schema.json", error);
 }
 
 fs::path find_data_root() {
   if (const char* set = std::getenv("TRAMMEL_HOME"); set != nullptr && *set != '\0') {
-    if (holds_the_data(set)) return fs::absolute(set);
+    if (has_case_schema(set)) return fs::absolute(set);
     throw InputError("TRAMMEL_HOME: expected a folder that contains cases/schema (got '" +
                      std::string(set) + "')");
   }
@@ -25,7 +25,7 @@ fs::path find_data_root() {
   const std::vector<fs::path> places = {TRAMMEL_SOURCE_DIR,
                                         program.parent_path().parent_path() / "share" / "trammel"};
   for (const fs::path& place : places)
-    if (holds_the_data(place)) return place;
+    if (has_case_schema(place)) return place;
   throw InputError("TRAMMEL_HOME: not set; expected the folder of cases/ and references/ (" +
                    places.front().string() + " does not exist)");
 }

@@ -135,7 +135,7 @@ struct Child {
 /// @param run  function that the child calls with the write end of the pipe; the function does not
 ///   return
 /// @returns the child. If the fork failed, `process` is -1 and errno contains the reason
-Child start_child(const std::function<void(int out)>& run) {
+Child fork_process(const std::function<void(int out)>& run) {
   Child child;
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return child;
@@ -168,7 +168,7 @@ bool drain(Child& child) {
   return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-double seconds_of(const timeval& time) {
+double timeval_in_seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
@@ -182,7 +182,7 @@ ProcessOutcome reap(const Child& child) {
           {},
           signalled ? WTERMSIG(status) : WEXITSTATUS(status),
           child.watch.wall_s(),
-          seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
+          timeval_in_seconds(used.ru_utime) + timeval_in_seconds(used.ru_stime)};
 }
 
 void put(int out, const void* data, std::size_t bytes) {
@@ -263,7 +263,7 @@ Termination await(Child& child, const fs::path& folder, const ProgramLimits& lim
     const bool looks = now_s - looked_s >= 1e-3 * tick_ms;
     if (now_s > limits.wall_s) {
       termination = Termination::timed_out;
-    } else if (looks && folder_bytes(folder, limits.disk_bytes) > limits.disk_bytes) {
+    } else if (looks && folder_size(folder, limits.disk_bytes) > limits.disk_bytes) {
       termination = Termination::disk_full;
     }
     if (termination != Termination::answered) break;
@@ -302,7 +302,7 @@ class ProcessPool {
 
   /// Starts a worker. @returns false if the worker cannot be started; errno contains the reason
   bool start(const std::vector<ProcessTask>& tasks, Owners owners, std::size_t memory_bytes) {
-    Child child = start_child([&](int out) {  // the child closes unused descriptors
+    Child child = fork_process([&](int out) {  // the child closes unused descriptors
       for (const Child& other : children_) close(other.output);
       close(signals_);
       work_on(tasks, owners, memory_bytes, out);
@@ -400,8 +400,8 @@ std::size_t memory_limit_bytes() {
   return allowed_bytes > 0 ? allowed_bytes : least / 2;
 }
 
-int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
-                     const std::function<void(std::size_t, const ProcessOutcome&)>& ended) {
+int run_in_worker_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
+                            const std::function<void(std::size_t, const ProcessOutcome&)>& ended) {
   const std::size_t bytes = (tasks.size() + 1) * sizeof(std::atomic<pid_t>);
   void* shared = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw std::bad_alloc();
@@ -430,7 +430,7 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
 ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options) {
   ProcessOutcome outcome;
   const auto ended = [&](std::size_t, const ProcessOutcome& found) { outcome = found; };
-  if (const int signal = run_in_processes({task}, options, ended); signal != 0)
+  if (const int signal = run_in_worker_processes({task}, options, ended); signal != 0)
     throw Interrupted(signal);
   return outcome;
 }
@@ -451,7 +451,7 @@ void kill_descendants() {
   }
 }
 
-std::size_t folder_bytes(const fs::path& folder, std::size_t stop_above) {
+std::size_t folder_size(const fs::path& folder, std::size_t stop_above) {
   constexpr std::size_t entry_bytes = 4096;  // size counted per entry, so that empty files count
   std::size_t sum = 0;
   std::error_code error;
@@ -483,7 +483,7 @@ ProcessOutcome run_limited(const std::vector<std::string>& words, const fs::path
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  Child child = start_child([&](int out) { become(arguments, folder.string(), limits, out); });
+  Child child = fork_process([&](int out) { become(arguments, folder.string(), limits, out); });
   if (child.process < 0) return {Termination::not_started, {}, errno};
   child.kept_bytes = 65536;
   fcntl(child.output, F_SETFL, O_NONBLOCK);

@@ -38,8 +38,8 @@ struct ProcessOptions {
 /// catches. An example is a failure in a destructor of the JSON library.
 void set_exit_on_out_of_memory(int status, const char* line);
 
-/// Returns the memory limit of this process [bytes]: the limit set by `run_in_processes`, else half
-/// of the smallest of machine memory, cgroup limit and address space.
+/// Returns the memory limit of this process [bytes]: the limit set by `run_in_worker_processes`,
+/// else half of the smallest of machine memory, cgroup limit and address space.
 [[nodiscard]] std::size_t memory_limit_bytes();
 
 /// Runs the tasks in worker processes forked from this process, which must have a single thread.
@@ -49,7 +49,7 @@ void set_exit_on_out_of_memory(int status, const char* line);
 /// @param ended  called in this process when a task ends; tasks end in any order
 /// @returns SIGINT or SIGTERM if one of these signals was received, else 0. After a signal, running
 ///   tasks are killed and waiting tasks are not started.
-[[nodiscard]] int run_in_processes(
+[[nodiscard]] int run_in_worker_processes(
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
 
@@ -82,11 +82,11 @@ void adopt_descendants();
 void kill_descendants();
 
 /// Returns the size of all files below a folder [bytes]. Counting stops above `stop_above`.
-[[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t stop_above);
+[[nodiscard]] std::size_t folder_size(const std::filesystem::path& folder, std::size_t stop_above);
 
 /// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing
-/// `line` on standard error. However, `run_in_processes` handles these signals itself, and signals
-/// that are already ignored remain ignored.
+/// `line` on standard error. However, `run_in_worker_processes` handles these signals itself, and
+/// signals that are already ignored remain ignored.
 void exit_on_signals(const std::string& line);
 
 }  // namespace trammel::harness

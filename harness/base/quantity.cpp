@@ -49,7 +49,7 @@ const std::vector<std::pair<std::string, std::string>>& units() {
 
 }  // namespace
 
-NameAndUnit split_unit(const std::string& name) {
+NameAndUnit split_name(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
   for (const auto& [suffix, unit] : units())
     if (head.size() > suffix.size() && head.ends_with(suffix))
@@ -58,10 +58,10 @@ NameAndUnit split_unit(const std::string& name) {
 }
 
 std::string unit_of(const std::string& name) {
-  return split_unit(name).unit;
+  return split_name(name).unit;
 }
 
-bool is_count(const std::string& name) {
+bool is_count_quantity(const std::string& name) {
   static const std::set<std::string> counts = {
       "mode_count_below", "rigid_body_modes",  "degrees_of_freedom", "steps",
       "rejected_steps",   "evaluations",       "newton_iterations",  "unstable_directions",

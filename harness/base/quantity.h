@@ -21,14 +21,14 @@ using Quantities = std::map<std::string, Quantity>;
 struct NameAndUnit {
   std::string name, unit;
 };
-[[nodiscard]] NameAndUnit split_unit(const std::string& name);
+[[nodiscard]] NameAndUnit split_name(const std::string& name);
 
 /// Returns the unit in a quantity's name, in the form used by references: "frequency_Hz" -> "Hz",
 /// "reaction_moment_N_m:A1" -> "N m", "parallel_singularity_distance" -> "1".
 [[nodiscard]] std::string unit_of(const std::string& name);
 
 /// Returns true if a quantity is a count, which has no order of convergence.
-[[nodiscard]] bool is_count(const std::string& name);
+[[nodiscard]] bool is_count_quantity(const std::string& name);
 
 /// Returns true if a quantity is an error measure (round-off, residual). Under mesh refinement,
 /// such a quantity does not converge to a limit.

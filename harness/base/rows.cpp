@@ -37,11 +37,11 @@ bool is_formula(const std::string& text) {
   return text.find_first_of("=+-@\t\r") == 0 && *end != '\0';
 }
 
-std::string csv_cell(const Json& cell, int digits) {
+std::string csv_cell_text(const Json& cell, int digits) {
   if (cell.is_null()) return "";
   if (cell.is_number_float() && digits > 0) return rounded(cell.get<double>(), digits);
   if (cell.is_number_float()) return shortest_decimal(cell.get<double>());
-  return cell.is_string() || cell.is_array() ? csv_text(table_cell(cell, "")) : cell.dump();
+  return cell.is_string() || cell.is_array() ? quote_csv_text(table_cell(cell, "")) : cell.dump();
 }
 
 }  // namespace
@@ -101,13 +101,13 @@ std::string Rows::csv(int digits) const {
     for (std::size_t c = 0; c < cells.size(); ++c) text += (c > 0 ? "," : "") + text_of(cells[c]);
     text += '\n';
   };
-  add_line(columns_, [](const Column& column) { return csv_text(column.key); });
+  add_line(columns_, [](const Column& column) { return quote_csv_text(column.key); });
   for (const std::vector<Json>& row : rows_)
-    add_line(row, [&](const Json& cell) { return csv_cell(cell, digits); });
+    add_line(row, [&](const Json& cell) { return csv_cell_text(cell, digits); });
   return text;
 }
 
-std::string csv_text(const std::string& text) {
+std::string quote_csv_text(const std::string& text) {
   const bool is_quoted = text.find_first_of(",\"\r\n") != std::string::npos;
   std::string out = std::string(is_quoted ? "\"" : "") + (is_formula(text) ? "'" : "");
   for (const char c : text) {

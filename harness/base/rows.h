@@ -47,7 +47,7 @@ class Rows {
 
 /// Returns a text as a cell of a CSV file (RFC 4180). A text that a spreadsheet would interpret as
 /// a formula starts with an apostrophe. Control characters other than line breaks become spaces.
-[[nodiscard]] std::string csv_text(const std::string& text);
+[[nodiscard]] std::string quote_csv_text(const std::string& text);
 
 /// Breaks a text at spaces into lines of limited width, and indents each line.
 [[nodiscard]] std::string wrapped(const std::string& text, const std::string& indent,

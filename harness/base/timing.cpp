@@ -56,8 +56,8 @@ std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state) {
   return order;
 }
 
-EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
-                               const std::function<void()>& batch) {
+EvaluationTime measure_evaluation(const std::string& name, std::size_t evaluations,
+                                  const std::function<void()>& batch) {
   constexpr double enough_s = 0.02;
   const Stopwatch watch;
   std::size_t rounds = 0;
@@ -69,9 +69,9 @@ EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
   return {name, watch.wall_s() / static_cast<double>(all), all};
 }
 
-std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
-                                     const TimingOptions& options,
-                                     const std::function<void()>& after_repeat) {
+std::vector<Timing> measure_interleaved(const std::vector<std::function<void()>>& works,
+                                        const TimingOptions& options,
+                                        const std::function<void()>& after_repeat) {
   std::vector<Timing> timings(works.size());
   std::vector<std::vector<double>> wall(works.size());
   for (std::size_t i = 0; i < works.size(); ++i)

@@ -41,9 +41,9 @@ struct RelativeTime {
 /// Runs every function once to warm up, then all of them once in each repeat, in a new random
 /// order. Disturbances of the machine therefore affect the times of all functions alike.
 /// @param after_repeat  called after each repeat
-[[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
-                                                   const TimingOptions& options,
-                                                   const std::function<void()>& after_repeat);
+[[nodiscard]] std::vector<Timing> measure_interleaved(
+    const std::vector<std::function<void()>>& works, const TimingOptions& options,
+    const std::function<void()>& after_repeat);
 
 /// Time of one evaluation of a function. Reports show this time, but checks do not use it.
 struct EvaluationTime {
@@ -54,8 +54,8 @@ struct EvaluationTime {
 
 /// Measures the mean time of one evaluation of a function. `batch` is repeated for at least 0.02 s.
 /// @param batch  evaluates the function `evaluations` times
-[[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
-                                             const std::function<void()>& batch);
+[[nodiscard]] EvaluationTime measure_evaluation(const std::string& name, std::size_t evaluations,
+                                                const std::function<void()>& batch);
 
 /// Returns a random permutation of 0 ... n - 1 that is the same on every machine.
 /// @param state  state of the random generator, which is advanced

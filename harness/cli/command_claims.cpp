@@ -16,7 +16,7 @@ namespace {
 
 /// Returns, as text, the values computed for an interpretation of a claim: ": 0.99998
 /// (circle-load)" or ": 0.0051 ... 0.0079 m (statics)".
-std::string measured(const results::ClaimInterpretation& interpretation) {
+std::string computed_values_text(const results::ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [low, high] =
       std::ranges::minmax(interpretation.entries, {}, &results::ClaimEntry::value);
@@ -31,9 +31,9 @@ void print_claim(const results::Claim& claim) {
   if (claim.verdict != claim.expected) std::cout << "  ** expected: " << claim.expected << " **";
   std::cout << '\n' << wrapped(claim.claim, "   ");
   for (const results::ClaimInterpretation& interpretation : claim.interpretations)
-    std::cout << wrapped(
-        interpretation.verdict + ": " + interpretation.description + measured(interpretation),
-        "     ");
+    std::cout << wrapped(interpretation.verdict + ": " + interpretation.description +
+                             computed_values_text(interpretation),
+                         "     ");
   std::cout << wrapped(claim.undecidable, "     ");
 }
 

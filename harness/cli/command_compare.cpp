@@ -40,7 +40,7 @@ Side side_of(const Case& given, const std::string& variant) {
           patched(given, variant)};
 }
 
-std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
+std::vector<Side> compute_case_sides(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   for (const std::string& name : names) {
     const auto [given, chosen] = load_case_variant(name);
@@ -83,7 +83,7 @@ std::vector<Side> load_or_compute_results(const std::vector<std::string>& names)
       others.push_back(name);
     }
   }
-  if (sides.empty()) return sides_of_cases(names);
+  if (sides.empty()) return compute_case_sides(names);
   if (!others.empty()) {
     (void)load_named_case(split_case_name(others.front()).first);  // throws if no such case exists
     throw InputError("expected either cases or results files (got both)");
@@ -93,7 +93,7 @@ std::vector<Side> load_or_compute_results(const std::vector<std::string>& names)
 }
 
 /// Prints the computing time and the accuracy of each compared set of results (side).
-void print_sides(const SideComparison& comparison) {
+void print_compared_sides(const SideComparison& comparison) {
   std::vector<Column> columns = {{"label", "result"},
                                  {"runs"},
                                  {"cpu_s", "time [s]", 3},
@@ -156,7 +156,7 @@ void add_row(std::vector<Json> cells, const results::ComparedValue& value, Rows&
   rows.add(std::move(cells));
 }
 
-void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
+void print_compared_numbers(const ComparedRun& run, const SideComparison& comparison) {
   Rows table(append_columns({"quantity", "index"}, comparison));
   std::set<std::string> same, changed;
   for (ComparedNumber number : run.numbers) {
@@ -175,13 +175,13 @@ void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
 
 void print(const SideComparison& comparison) {
   std::cout << wrapped(comparison.conclusion, "");
-  print_sides(comparison);
+  print_compared_sides(comparison);
   const bool several = comparison.same + comparison.within_noise + comparison.changed > 1;
   for (const ComparedRun& run : comparison.runs) {
     if (several && !run.changed) continue;
     if (several) std::cout << '\n' << run.name << '\n';
     print_modes(run, comparison);
-    print_numbers(run, comparison);
+    print_compared_numbers(run, comparison);
   }
 }
 

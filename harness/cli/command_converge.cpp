@@ -24,7 +24,7 @@ std::string note(const Convergence& found, std::size_t k) {
 
 /// Describes the results of a refinement study: observed order of convergence, fitted error law and
 /// extrapolated value.
-std::string conclusion(const Convergence& found) {
+std::string describe_convergence(const Convergence& found) {
   std::vector<std::string> parts;
   if (found.theory_order)
     parts.push_back("order by theory " + rounded(*found.theory_order) +
@@ -66,7 +66,7 @@ void print(const Convergence& found) {
     table.add({*found.parameter[k], *found.values[k], *found.error[k], *found.order[k],
                *found.gci[k], *found.safety_factor[k], note(found, k)});
   table.print(std::cout, "    ");
-  std::cout << wrapped(conclusion(found), "    ") << '\n';
+  std::cout << wrapped(describe_convergence(found), "    ") << '\n';
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::multimap<std::string, fs::path> catalogue_studies() {
   return studies;
 }
 
-fs::path find_one(const std::string& word, const std::multimap<std::string, fs::path>& studies) {
+fs::path find_file(const std::string& word, const std::multimap<std::string, fs::path>& studies) {
   try {
     return Catalogue().find_case(word);
   } catch (const InputError&) {
@@ -48,8 +48,8 @@ fs::path find_one(const std::string& word, const std::multimap<std::string, fs::
   }
 }
 
-std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent extent,
-                                    const References& references) {
+std::vector<CostStudy> read_cost_studies(const CommandOptions& options, SweepExtent extent,
+                                         const References& references) {
   std::vector<CostStudy> studies;
   std::set<fs::path> seen;
   bool any_case = false;
@@ -62,7 +62,7 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     const auto [begin, end] = named.equal_range(word);
     std::for_each(begin, end, [&](const auto& item) { add(item.second); });
     if (begin != end) continue;
-    const fs::path file = find_one(split_case_name(word).first, named);
+    const fs::path file = find_file(split_case_name(word).first, named);
     if (is_cost_study(file)) {
       add(file);
       continue;
@@ -79,7 +79,7 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
   return studies;
 }
 
-void print_settings(const results::CostStudy& study) {
+void print_cost_settings(const results::CostStudy& study) {
   std::vector<Column> columns = {"setting",   {"error", "", 3},        {"time", "", 3},
                                  ">interval", {"cpu_s", "cpu [s]", 3}, ""};
   for (const auto& counter : study.settings.front().counters)
@@ -126,7 +126,7 @@ void print(const results::CostStudy& study) {
                                    study.norm, study.reference_solution, study.scale,
                                    study.settings[study.baseline].title),
                        "  ");
-  print_settings(study);
+  print_cost_settings(study);
   results::CostOutput only{"", "", {}, study.cheapest};
   for (const results::CostSetting& setting : study.settings)
     only.errors.push_back(study.error_of(setting));
@@ -141,7 +141,7 @@ void print(const results::CostStudy& study) {
   std::cout << wrapped(study.conclusion, "  ") << '\n';
 }
 
-results::CostStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,
+results::CostStudy search_setting(const CommandOptions& options, const CostOptions& cost_options,
                                   const References& references) {
   if (options.words.size() != 1 || !options.sweeps.empty())
     throw InputError("--accuracy: expected a single case, and no --sweep");
@@ -189,9 +189,9 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   std::vector<results::CostStudy> measured;
   std::vector<CostStudy> studies;
   if (options.accuracy > 0) {
-    measured.push_back(choose_setting(options, cost_options, references));
+    measured.push_back(search_setting(options, cost_options, references));
   } else {
-    studies = read_studies(options, extent, references);
+    studies = read_cost_studies(options, extent, references);
   }
   for (const CostStudy& study : studies) {
     {

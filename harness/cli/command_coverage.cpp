@@ -17,7 +17,7 @@ using results::CoverageRow;
 
 /// Prints the features of a group that have no independent evidence, and counts all features of the
 /// group.
-void print_group(const std::vector<CoverageRow>& rows, const std::string& group) {
+void print_feature_group(const std::vector<CoverageRow>& rows, const std::string& group) {
   Rows table({group.c_str(), "reason"});
   int verified = 0, stated = 0, open = 0, all = 0;
   for (const CoverageRow& row : rows) {
@@ -50,7 +50,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   if (options.json) {
     std::cout << format_json(results::to_json(rows));
   } else {
-    for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group);
+    for (const char* group : {"key", "pair", "quantity"}) print_feature_group(rows, group);
   }
   const bool complete = std::ranges::all_of(
       rows, [](const CoverageRow& row) { return row.is_verified() || !row.reason.empty(); });

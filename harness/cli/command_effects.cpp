@@ -68,8 +68,8 @@ const std::vector<Column> kSceneColumns = {"scene",
                                            {"chosen_s", "chosen [s]", 3},
                                            {"deciding_s", "deciding [s]", 3}};
 
-results::EffectScene scene_of(const std::string& id, const std::string& analysis,
-                              const EffectStudy& study) {
+results::EffectScene make_scene(const std::string& id, const std::string& analysis,
+                                const EffectStudy& study) {
   return {.scene = id,
           .analysis = analysis,
           .chosen = effect_names(study.choice.chosen),
@@ -85,8 +85,8 @@ results::EffectScene scene_of(const std::string& id, const std::string& analysis
           .beyond_tier = study.choice.automatic->beyond_tier};
 }
 
-Json study_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
-  Json json = results::to_json(scene_of(id, analysis, study));
+Json study_to_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
+  Json json = results::to_json(make_scene(id, analysis, study));
   json["effects"] = results::to_json(study.choice.rows);
   json["runs"] = contribution_rows(study).json();
   return json;
@@ -98,7 +98,7 @@ bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_linear_theory();
 }
 
-void print_study(const EffectStudy& study) {
+void print_effect_study(const EffectStudy& study) {
   std::cout << "\nChanges measured against the model with all effects\n";
   contribution_rows(study).print(std::cout, "  ");
   std::cout << "  time, work: relative to the full model; work: counted factorizations, solves and "
@@ -176,9 +176,9 @@ int print_effect_selection(const EffectCase& scene, const CommandOptions& option
     throw InputError(scene.id + ": the model with all effects has no solution (" +
                      study.full.outcome.reason + ")");
   if (options.json) {
-    std::cout << format_json(study_json(scene.id, analysis_kind(scene.document), study), 2);
+    std::cout << format_json(study_to_json(scene.id, analysis_kind(scene.document), study), 2);
   } else {
-    print_study(study);
+    print_effect_study(study);
   }
   return holds(study) ? 0 : 1;
 }
@@ -232,7 +232,7 @@ std::vector<std::function<void()>> effect_scene_work(const std::filesystem::path
                                                      bool resume) {
   std::vector<std::function<void()>> work;
   for (const EffectCase& scene : effect_cases({"effects"}, kBaseVariant))
-    work.emplace_back([scene, store, resume] { (void)scenes_of(scene, store, resume); });
+    work.emplace_back([scene, store, resume] { (void)case_scenes(scene, store, resume); });
   return work;
 }
 
@@ -240,7 +240,7 @@ std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem:
                                                           bool resume) {
   std::vector<results::EffectScene> scenes;
   for (const EffectCase& scene : effect_cases({"effects"}, kBaseVariant))
-    std::ranges::move(scenes_of(scene, store, resume), std::back_inserter(scenes));
+    std::ranges::move(case_scenes(scene, store, resume), std::back_inserter(scenes));
   return scenes;
 }
 

@@ -14,7 +14,7 @@ namespace trammel::harness {
 namespace {
 
 /// Returns the quantities that the case requests; all quantities if the case requests none.
-Json quantities_json(const Case& given, const Quantities& quantities) {
+Json requested_quantities_json(const Case& given, const Quantities& quantities) {
   std::set<std::string> asked;
   if (const auto exported = JsonView(given.document).find("export"))
     for (const auto& [number, place] : (*exported)["quantities"].entries())
@@ -38,7 +38,7 @@ int export_command(const CommandOptions& options, const Renderers& /*renderers*/
   if (!options.sweeps.empty()) choice.sweep = options.sweeps.front();
   if (options.level >= 0) choice.level = static_cast<std::size_t>(options.level);
   if (!options.matrices.empty()) {
-    const Document document = chosen_document(given, choice);
+    const Document document = case_with_chosen_patches(given, choice);
     write_system_matrices(document, exported_scene(document), options.matrices);
     if (options.out.empty()) return 0;
   }
@@ -66,7 +66,7 @@ int solve_command(const CommandOptions& options, const Renderers& /*renderers*/)
   write_file(options.out,
              format_json({{"status", to_string(run.status)},
                           {"reason", run.reason},
-                          {"quantities", quantities_json(given, run.quantities)},
+                          {"quantities", requested_quantities_json(given, run.quantities)},
                           {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
                           {"cost", {{"seconds", run.cost.wall_s}}}}));
   return 0;

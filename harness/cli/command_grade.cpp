@@ -52,7 +52,7 @@ void print_grades(const std::vector<results::Run>& runs) {
         fmt::format("{} of {}", std::ssize(run.checks) - missing, run.checks.size()),
         run.cost.wall_s};
     if (grade == Grade::agrees || grade == Grade::off)
-      std::ranges::move(check_cells(*results::decisive_check(run)), std::back_inserter(row));
+      std::ranges::move(cells_of_check(*results::decisive_check(run)), std::back_inserter(row));
     else
       reasons[printable(reason_of_grade(run, grade), 160)].push_back(name);
     table.add(std::move(row));

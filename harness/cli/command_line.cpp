@@ -85,7 +85,7 @@ CLI::Validator within(double least, double most) {
   return {message_of, limits};
 }
 
-const std::vector<Option>& all_options() {
+const std::vector<Option>& all_command_options() {
   static const std::vector<Option> options = {
       {"case", &Options::word, "Name or file of a case, or case:variant"},
       {"cases", &Options::words,
@@ -281,7 +281,7 @@ class CommandLine {
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
     const std::string first = arguments.front();
     std::vector<std::string> names;
-    for (const Option& option : all_options()) names.emplace_back(option.name());
+    for (const Option& option : all_command_options()) names.emplace_back(option.name());
     const auto wrong = std::ranges::find_if(arguments, [&](const std::string& argument) {
       return argument.starts_with("--") && !contains(names, argument);
     });
@@ -308,11 +308,11 @@ class CommandLine {
     command_ = [this, &command] { return command.run(options_, renderers_); };
   }
 
-  /// @param name  name of an option in `all_options`; a final '!' marks a required option
+  /// @param name  name of an option in `all_command_options`; a final '!' marks a required option
   void add_option(std::string name, CLI::App* sub) {
     const bool is_required = name.ends_with('!');
     if (is_required) name.pop_back();
-    const Option& option = *std::ranges::find(all_options(), name, &Option::name);
+    const Option& option = *std::ranges::find(all_command_options(), name, &Option::name);
     const auto add = [&](auto member) {
       auto& value = options_.*member;
       using Value = std::decay_t<decltype(value)>;

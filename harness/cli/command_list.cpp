@@ -61,7 +61,7 @@ std::string describe_model(const Document& document) {
   return text;
 }
 
-std::string describe_windows(const Check& check) {
+std::string describe_allowed_ranges(const Check& check) {
   if (check.windows.empty()) return "reported, not judged";
   if (check.symmetric) return fmt::format("within {}", check.windows[0].high);
   std::vector<std::string> each;
@@ -79,7 +79,7 @@ std::string describe_check(const Check& check) {
   if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
   if (check.order) return text + ", order of convergence along sweep " + check.order->sweep;
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
-  text += describe_windows(check);
+  text += describe_allowed_ranges(check);
   return check.expectation == Expectation::known_discrepancy
              ? text + " (recorded range of a known discrepancy)"
              : text;
@@ -130,7 +130,7 @@ void describe_sweeps(const Case& given) {
 }
 
 /// Returns a table with one row for each value of the references.
-Rows value_rows(const std::vector<CitedReference>& all) {
+Rows rows_of_reference_values(const std::vector<CitedReference>& all) {
   Rows rows({"id", "title", "kind", "unit", "index", "value", "uncertainty", "printed", "source",
              "place", "notes"});
   for (const auto& [reference, source] : all)
@@ -164,7 +164,7 @@ Json references_json(const std::vector<CitedReference>& all) {
   return json;
 }
 
-void print_values(const CitedReference& cited) {
+void print_reference_values(const CitedReference& cited) {
   const references::Reference& reference = cited.reference;
   print_reference(cited);
   Rows table({"index", {"value", ">value [" + reference.unit + "]"}, {"uncertainty", "", 2}});
@@ -176,7 +176,7 @@ void print_values(const CitedReference& cited) {
   table.print(std::cout, "  ");
 }
 
-Rows analysis_rows() {
+Rows analysis_kind_rows() {
   Rows rows({"analysis", "quantity", "unit", "meaning"});
   for (const AnalysisKind& kind : analysis_kinds())
     for (const results::QuantityDefinition& definition : results::quantity_definitions())
@@ -187,7 +187,7 @@ Rows analysis_rows() {
 
 /// Returns the meaning of a quantity of a case. In a study, the quantity may belong to the analysis
 /// that the study repeats.
-std::string meaning_of(const std::string& name, const Document& document) {
+std::string meaning_of_quantity(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
   const auto* found = results::find_quantity_definition(name, analysis);
   if (found == nullptr)
@@ -197,13 +197,13 @@ std::string meaning_of(const std::string& name, const Document& document) {
   return found == nullptr ? "" : found->meaning;
 }
 
-Rows quantity_rows(const std::string& word) {
+Rows quantity_table(const std::string& word) {
   const auto [given, chosen] = load_case_variant(word);
   const std::string variant = chosen.empty() ? kBaseVariant : chosen;
   const Document document = patched(given, variant);
   Rows rows({"quantity", "entries", "unit", "meaning"});
   for (const auto& [name, quantity] : run_variant(given, variant).quantities)
-    rows.add({name, quantity.values.size(), unit_of(name), meaning_of(name, document)});
+    rows.add({name, quantity.values.size(), unit_of(name), meaning_of_quantity(name, document)});
   return rows;
 }
 
@@ -240,7 +240,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
     std::cout << format_json(json);
     return 0;
   }
-  require_memory(document);
+  require_sufficient_memory(document);
   std::cout << given.id() << (chosen.empty() ? "" : ":" + chosen) << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
             << describe_model(document) << "\nAnalysis  " << analysis_kind(document) << " "
@@ -270,7 +270,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
 }
 
 int quantities_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const Rows rows = options.word.empty() ? analysis_rows() : quantity_rows(options.word);
+  const Rows rows = options.word.empty() ? analysis_kind_rows() : quantity_table(options.word);
   if (options.json) {
     std::cout << format_json(rows.json(), 1);
   } else {
@@ -292,11 +292,11 @@ int references_command(const CommandOptions& options, const Renderers& /*rendere
   std::vector<CitedReference> all;
   for (const auto& [id, reference] : library.requested_references()) all.push_back(reference);
   if (options.csv) {
-    std::cout << value_rows(all).csv();
+    std::cout << rows_of_reference_values(all).csv();
   } else if (options.json) {
     std::cout << format_json(references_json(all));
   } else if (!names.empty()) {
-    std::ranges::for_each(all, print_values);
+    std::ranges::for_each(all, print_reference_values);
   } else {
     Rows table({"reference", "kind", "values", "unit", "source", "title"});
     for (const auto& [reference, source] : all)

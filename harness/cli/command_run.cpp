@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns true if the options contain neither cases nor labels.
-bool is_catalogue(const CommandOptions& options) {
+bool selects_all(const CommandOptions& options) {
   return options.words.empty() && options.labels.empty() && options.any_labels.empty();
 }
 
@@ -73,14 +73,14 @@ void require_distinct_cases(const std::vector<Case>& cases) {
   }
 }
 
-void require_variants(const std::vector<Case>& cases, const std::string& variant) {
+void require_variant_in_cases(const std::vector<Case>& cases, const std::string& variant) {
   for (const Case& test_case : cases) {
     if (!variant.empty()) (void)patched(test_case, variant);
     for (const std::string& chosen : test_case.chosen_variants) (void)patched(test_case, chosen);
   }
 }
 
-RunOptions run_options(const CommandOptions& given, Progress& progress) {
+RunOptions to_run_options(const CommandOptions& given, Progress& progress) {
   RunOptions options{given.variant, given.jobs, TrackedQuantities::named, {}};
   options.progress = [&](std::size_t done, std::size_t all) {
     if (!given.quiet) progress.show(done, all);
@@ -101,7 +101,7 @@ RunOptions run_options(const CommandOptions& given, Progress& progress) {
 std::vector<Run> compute(const Selection& selection, const References& references,
                          const CommandOptions& options) {
   Progress progress("runs");
-  std::vector<Run> runs = run_cases(selection.cases, references, run_options(options, progress));
+  std::vector<Run> runs = run_cases(selection.cases, references, to_run_options(options, progress));
   runs.insert(runs.end(), selection.broken.begin(), selection.broken.end());
   return runs;
 }
@@ -131,7 +131,7 @@ void reject_variant_option(const std::string& option, const std::string& name) {
 /// contain neither names nor labels.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
-  if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
+  if (selects_all(options)) return load(catalogue.runnable_files(), catalogue);
   std::vector<fs::path> files;
   std::map<fs::path, std::vector<std::string>> chosen;
   for (const std::string& word : options.words) {
@@ -148,14 +148,14 @@ Selection select(const CommandOptions& options) {
       if (!contains(selection.cases, test_case.id(), &Case::id))
         selection.cases.push_back(std::move(test_case));
   require_distinct_cases(selection.cases);
-  require_variants(selection.cases, options.variant);
+  require_variant_in_cases(selection.cases, options.variant);
   return selection;
 }
 
 /// Runs each function in a separate process. The functions write their results into the store.
 /// @returns true if all functions were completed
-bool call_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
-                       const std::string& items) {
+bool call_in_subprocesses(const std::vector<std::function<void()>>& work, unsigned jobs,
+                          const std::string& items) {
   constexpr unsigned kLimit = 3600;  // [s]; each computation inside a function has a separate limit
   std::vector<ProcessTask> tasks;
   for (const auto& one : work) {
@@ -173,8 +173,8 @@ bool call_in_processes(const std::vector<std::function<void()>>& work, unsigned 
   std::size_t ended = 0;
   bool all = true;
   const auto show = [&] { progress.show(ended, tasks.size()); };
-  const int signal =
-      run_in_processes(tasks, {jobs, 0, show}, [&](std::size_t, const ProcessOutcome& outcome) {
+  const int signal = run_in_worker_processes(
+      tasks, {jobs, 0, show}, [&](std::size_t, const ProcessOutcome& outcome) {
         all = all && outcome.termination == ProcessOutcome::Termination::answered &&
               outcome.text.empty();
         ++ended;
@@ -269,7 +269,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
 
 /// Returns the selected cases, labels and variant in a form that does not depend on the working
 /// folder.
-Json selection_of(const CommandOptions& options) {
+Json selection_json(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& word : options.words) {
     const auto [name, variant] = split_case_name(word);
@@ -290,10 +290,10 @@ int compute_shard(const CommandOptions& options) {
   exit_on_signals(kInterrupted);
   fs::remove(fs::path(options.out) / kShardFile);
   Progress progress("runs");
-  const ShardRuns shard_runs = run_shard(selection.cases, run_options(options, progress), shard);
+  const ShardRuns shard_runs = run_shard(selection.cases, to_run_options(options, progress), shard);
   print_run_errors(shard_runs.runs);
   require_uninterrupted(shard_runs.runs);
-  write_shard(options.out, shard, selection_of(options), shard_runs);
+  write_shard(options.out, shard, selection_json(options), shard_runs);
   std::cout << "shard " << options.shard << ": " << shard_runs.runs.size() << " of "
             << shard_runs.in_all << " computations in " << options.out
             << "; 'trammel merge' judges them\n";
@@ -303,8 +303,8 @@ int compute_shard(const CommandOptions& options) {
 /// Adds the results of the studies that belong to the complete catalogue: cost, claims, coverage
 /// and effects.
 /// @returns the exit status of the studies
-int add_studies(results::Results& results, const std::vector<Case>& cases,
-                const References& references, const CommandOptions& options) {
+int add_all_studies(results::Results& results, const std::vector<Case>& cases,
+                    const References& references, const CommandOptions& options) {
   const fs::path store = store_folder(options.out, options.store);
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies;
@@ -317,7 +317,7 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   // The calls of `quick_cost_studies` and `catalogue_effect_scenes` below read the results from the
   // store, and compute those that are missing. With --fresh, they read stored results only if all
   // functions in `studies` were completed.
-  const bool measured = call_in_processes(studies, options.jobs, "studies of cost and effects");
+  const bool measured = call_in_subprocesses(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
   results.cost = quick_cost_studies(references, store, resume || measured, error_messages);
   const Document document = load_claims();
@@ -368,7 +368,7 @@ fs::path write_pages(const results::Results& results, const std::string& out,
 
 int run_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.shard.empty()) return compute_shard(options);
-  if (is_catalogue(options)) throw InputError("expected a case or label (see trammel run --help)");
+  if (selects_all(options)) throw InputError("expected a case or label (see trammel run --help)");
   const Selection selection = select(options);
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
@@ -424,7 +424,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   for (const Run& run : runs)
     if (counts_as_failure(run) && run.fault == results::Fault::none) print_run(run);
   const int status =
-      is_catalogue(options) ? add_studies(results, selection.cases, references, options) : 0;
+      selects_all(options) ? add_all_studies(results, selection.cases, references, options) : 0;
   if (!options.history.empty()) {
     append_history(options.history, results);
     results.history = read_history(options.history);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the selected cases and labels as arguments of a command line, each preceded by a space.
-std::string words_of(const CommandOptions& options) {
+std::string selection_arguments(const CommandOptions& options) {
   std::string words;
   for (const std::string& name : options.words) words += " " + shell_quoted(name);
   for (const std::string& label : options.labels) words += " -L " + shell_quoted(label);
@@ -49,7 +49,7 @@ int slurm_command(const CommandOptions& options, const Renderers& /*renderers*/)
       fmt::arg("jobs", options.jobs),
       fmt::arg("program", shell_quoted(fs::read_symlink("/proc/self/exe").string())),
       fmt::arg("out", shell_quoted(fs::absolute(options.out).lexically_normal().string())),
-      fmt::arg("words", words_of(options)),
+      fmt::arg("words", selection_arguments(options)),
       fmt::arg("variant", option(" --variant ", options.variant)),
       fmt::arg("time", options.job_time.empty() ? "" : option("--time=", options.job_time) + " "));
   return 0;

@@ -38,7 +38,7 @@ class FeatureWalk {
   /// @param value  part of the document; null: all values that the schema rule allows
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
-      const std::string path = string_of(*reference), name = path.substr(path.rfind('/') + 1);
+      const std::string path = schema_string(*reference), name = path.substr(path.rfind('/') + 1);
       if (value || seen_.insert(name).second) visit(resolve_ref(root_, stated), value, name);
       return;
     }
@@ -55,7 +55,7 @@ class FeatureWalk {
 
   void visit_choice(const SchemaRule& choice, const Json* value, const std::string& context) {
     if (!choice.IsString()) return;
-    const std::string text = string_of(choice);
+    const std::string text = schema_string(choice);
     if (value == nullptr || *value == text) features_.insert(context + " = " + text);
   }
 
@@ -68,7 +68,7 @@ class FeatureWalk {
 
   template <class Item>
   void visit_key(const Item& item, const Json* value, const std::string& context) {
-    const std::string key = string_of(item.name);
+    const std::string key = schema_string(item.name);
     if (value != nullptr && (!value->is_object() || !value->contains(key))) return;
     features_.insert(context + "." + key);
     visit(item.value, value == nullptr ? nullptr : &value->at(key), context + "." + key);
@@ -80,13 +80,13 @@ class FeatureWalk {
 };
 
 /// Returns the kind of analysis, which is the key below "analysis".
-std::string analysis_name(const Json& document) {
+std::string analysis_kind_of_case(const Json& document) {
   const Json& analysis = document.at("analysis");
   return analysis.empty() ? "" : analysis.begin().key();
 }
 
 /// Returns the features that name components of a model: parts, elements and joints.
-CaseFeatures parts_of(const CaseFeatures& features) {
+CaseFeatures component_features(const CaseFeatures& features) {
   static constexpr std::array<std::string_view, 24> parts = {
       "model.members",        "model.plates",
       "model.edges",          "model.rigid_bodies",
@@ -128,7 +128,7 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
     return "";
   if (!check.reference.empty())
     return kind_of(references.get(JsonView(document)["checks"][check.name]["reference"]).kind);
-  const std::string analysis = analysis_name(document.value());
+  const std::string analysis = analysis_kind_of_case(document.value());
   if (analysis == "study" && check.quantity.rfind("relative_error:", 0) == 0) {
     const Json& kept = document.value().at("analysis").at("study").at("quantities");
     const std::string name = check.quantity.substr(check.quantity.find(':') + 1);
@@ -158,7 +158,7 @@ class Coverage {
 
   void add_variant(const Document& document, const std::vector<Check>& checks,
                    const References& references) {
-    const std::string analysis = analysis_name(document.value());
+    const std::string analysis = analysis_kind_of_case(document.value());
     Kinds kinds;
     for (const Check& check : checks) {
       const std::string kind = kind_of(check, document, references);
@@ -167,9 +167,9 @@ class Coverage {
       const std::string quantity = coverage_row_name(check.quantity, analysis);
       if (!quantity.empty()) add("quantity", quantity, {kind});
     }
-    const CaseFeatures features = features_of(document.value());
+    const CaseFeatures features = features_of_document(document.value());
     for (const std::string& feature : features) add("key", feature, kinds);
-    for (const std::string& part : parts_of(features))
+    for (const std::string& part : component_features(features))
       add("pair", analysis + " with " + part, kinds);
   }
 
@@ -203,7 +203,7 @@ CaseFeatures case_features_of_schema() {
   return FeatureWalk().run(nullptr);
 }
 
-CaseFeatures features_of(const Json& document) {
+CaseFeatures features_of_document(const Json& document) {
   return FeatureWalk().run(&document);
 }
 

@@ -21,7 +21,7 @@ using CaseFeatures = std::set<std::string>;
 [[nodiscard]] CaseFeatures case_features_of_schema();
 
 /// Returns the features used by a document with all patches applied, which satisfies the schema.
-[[nodiscard]] CaseFeatures features_of(const Json& document);
+[[nodiscard]] CaseFeatures features_of_document(const Json& document);
 
 /// Computes the coverage from the catalogue's data alone. There is a row for each key and value of
 /// the case schema. Further rows are the pairs of an analysis and a part, element or joint in a

@@ -23,7 +23,7 @@ namespace {
 
 using solver::Effect;
 
-JsonView analysis_place(const Document& document) {
+JsonView analysis_view(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
@@ -37,13 +37,13 @@ bool exports_mechanism(const std::string& kind) {
 /// Returns true for the analysis of a neural network whose samples are stated in the case. Such a
 /// case has no model.
 bool has_stated_samples(const Document& document) {
-  return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
+  return analysis_kind(document) == "grnn" && analysis_view(document).has("samples");
 }
 
 void require_exportable_case(const Document& document) {
   constexpr std::array kinds = {"statics",      "buckling", "modes",    "large-statics",
                                 "large-motion", "harmonic", "transient"};
-  const JsonView place = analysis_place(document);
+  const JsonView place = analysis_view(document);
   if (!contains(kinds, analysis_kind(document)))
     throw place.error("the analysis " + analysis_kind(document) +
                       " cannot be exported; expected, for example, statics or modes");
@@ -54,10 +54,10 @@ void require_exportable_case(const Document& document) {
 }
 
 /// Returns the JSON object of the analysis, with keys that switch on exactly the effects `chosen`.
-Json stated_analysis(const Document& document, solver::Effects chosen) {
+Json analysis_with_stated_effects(const Document& document, solver::Effects chosen) {
   Json analysis = document.value().at("analysis");
   if (!document.value().contains("effects")) return analysis;
-  const JsonView place = analysis_place(document);
+  const JsonView place = analysis_view(document);
   const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
   if (chosen.has(Effect::large_displacement) || !kept)
     throw JsonView(document)["effects"].error(
@@ -103,8 +103,8 @@ std::set<std::string> renamed_parts(const Document& document, const solver::Mode
 
 /// Returns the number of values of a quantity, or null if this number is unknown before the
 /// computation.
-Json length_of(const Document& document, const std::string& name) {
-  const JsonView place = analysis_place(document);
+Json length_of_quantity(const Document& document, const std::string& name) {
+  const JsonView place = analysis_view(document);
   if (analysis_kind(document) == "statics") return 1;
   const bool is_list = analysis_kind(document) == "modes" && name == "frequency_Hz";
   return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
@@ -118,7 +118,7 @@ std::vector<Check> checks_of_variant(const Document& document, const std::string
   std::vector<Check> checks = read_checks(document, variant, variants);
   for (const std::string& other : variants) {
     if (other == variant) continue;
-    for (Check& check : read_checks(chosen_document(given, {other}), other, variants))
+    for (Check& check : read_checks(case_with_chosen_patches(given, {other}), other, variants))
       if (check.against_variant == variant) checks.push_back(std::move(check));
   }
   return checks;
@@ -140,7 +140,7 @@ Json export_quantities(const Document& document, const std::vector<Check>& check
       const auto* known = results::find_quantity_definition(name, analysis_kind(document));
       asked.push_back({{"name", name},
                        {"unit", unit_of(name)},
-                       {"length", length_of(document, name)},
+                       {"length", length_of_quantity(document, name)},
                        {"about", known == nullptr ? "" : known->meaning}});
     }
   return asked;
@@ -199,7 +199,7 @@ Json mechanism_json(const CaseModel& case_model) {
 /// the elastic model at the first point of the path.
 Json mechanism_of_case(const Document& document) {
   const CaseModel case_model = read_case_model(document);
-  if (!case_model.manipulator) throw analysis_place(document).error("expected a 'manipulator'");
+  if (!case_model.manipulator) throw analysis_view(document).error("expected a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
   if (analysis_kind(document) == "elastodynamics") {
     mechanism["elastic_model"] = rethrow_as_input_error(document, [&] {
@@ -221,7 +221,7 @@ void list_recorded_nodes(const solver::Model& model, Json& analysis) {
 
 }  // namespace
 
-Document chosen_document(const Case& given, const ExportChoice& choice) {
+Document case_with_chosen_patches(const Case& given, const ExportChoice& choice) {
   Document document = patched(given, choice.variant);
   if (!choice.level) return document;
   std::vector<std::string> names;
@@ -248,7 +248,7 @@ ExportedScene exported_scene(const Document& document) {
     ExportedScene scene{build_without_joint_elements(case_model, 0), case_model.joint_elements,
                         case_model.effects};
     if (analysis_kind(document).starts_with("large-")) {
-      const JsonView place = analysis_place(document);
+      const JsonView place = analysis_view(document);
       solver::large_motion::LargeMotionModel driven = scene.joints;
       read_prescribed_motions(place, scene.model, driven);
       release_driven_actuators(place, case_model, driven, scene.model);
@@ -258,7 +258,7 @@ ExportedScene exported_scene(const Document& document) {
 }
 
 Json export_case(const Case& given, const ExportChoice& choice) {
-  const Document document = chosen_document(given, choice);
+  const Document document = case_with_chosen_patches(given, choice);
   const Json& whole = document.value();
   Json exported = {{"id", given.id()}, {"title", given.title()}};
   if (whole.contains("timeout_s")) exported["timeout_s"] = whole["timeout_s"];
@@ -270,7 +270,7 @@ Json export_case(const Case& given, const ExportChoice& choice) {
   } else {
     scene = exported_scene(document);
     exported["model"] = plain_model(document, scene);
-    exported["analysis"] = stated_analysis(document, scene.effects);
+    exported["analysis"] = analysis_with_stated_effects(document, scene.effects);
     list_recorded_nodes(scene.model, exported["analysis"]);
   }
   const bool is_base = choice.variant == kBaseVariant;

@@ -26,7 +26,7 @@ struct ExportChoice {
 
 /// Returns the case with the patches of the chosen variant and of the chosen level of a sweep.
 /// @throws InputError  if the variant, sweep or level does not exist.
-[[nodiscard]] Document chosen_document(const Case& given, const ExportChoice& choice);
+[[nodiscard]] Document case_with_chosen_patches(const Case& given, const ExportChoice& choice);
 
 /// Model of a case for export, with the effects of its analysis. Actuators that follow a prescribed
 /// motion have no support against rotation.

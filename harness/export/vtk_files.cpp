@@ -30,7 +30,7 @@ std::string vectors(const std::vector<Point>& points) {
   return text;
 }
 
-std::vector<VtkCell> cells_of(const results::Drawing& drawing) {
+std::vector<VtkCell> vtk_cells_of_drawing(const results::Drawing& drawing) {
   std::vector<VtkCell> cells;
   for (const auto& member : drawing.members)
     cells.push_back({{member.begin(), member.end()}, kLine, 0});
@@ -91,7 +91,7 @@ std::string vtu(const std::vector<Point>& nodes, const std::vector<VtkCell>& cel
 void write_vtk(const results::Run& run, const std::filesystem::path& folder) {
   if (!run.drawing) return;
   const results::Drawing& drawing = *run.drawing;
-  const std::vector<VtkCell> cells = cells_of(drawing);
+  const std::vector<VtkCell> cells = vtk_cells_of_drawing(drawing);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   std::vector<Grid> shapes, poses, moments;

@@ -42,7 +42,7 @@ void end_as(Run& run, results::Status status, const std::string& reason) {
 
 /// Sets the status of a run whose adapter failed or exceeded a limit. Returns false if the adapter
 /// ended normally, so that its RESULT.json must be read.
-bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
+bool record_missing_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
   switch (outcome.termination) {
     case Ending::timed_out:
       end_as(run, Status::timed_out, "stopped after " + shortest_decimal(limits.wall_s) + " s");
@@ -90,7 +90,7 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   run.cost.wall_s += outcome.wall_s;
   run.cost.cpu_s += outcome.cpu_s;
   try {
-    if (!ended_without_answer(outcome, adapter.limits, run)) {
+    if (!record_missing_answer(outcome, adapter.limits, run)) {
       const bool cannot = outcome.status == kCannot;
       const std::string said = last_line(outcome.text);
       if (cannot)
@@ -102,7 +102,7 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   } catch (const InputError& broken) {
     end_as(run, Status::error, one_line(broken.what()));
   }
-  if (folder_bytes(folder, kMaxKeptBytes) > kMaxKeptBytes) {
+  if (folder_size(folder, kMaxKeptBytes) > kMaxKeptBytes) {
     fs::remove_all(folder, error);
     fs::create_directories(folder, error);
   }

@@ -38,8 +38,8 @@ Json select_inherited_keys(const Json& base) {
 
 /// Applies the extended cases in the order of inheritance, from the root to the direct parent, and
 /// then the case file itself.
-void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
-                      std::vector<fs::path> seen) {
+void apply_with_extended_cases(Document& document, const fs::path& file, const Catalogue& catalogue,
+                               std::vector<fs::path> seen) {
   const Json json = read_json(file);
   if (!json.is_object()) throw InputError(file.string(), "", "expected a JSON object of a case");
   seen.push_back(fs::weakly_canonical(file));
@@ -51,7 +51,7 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
       throw InputError(file.string(), "/extends",
                        "the case extends itself, directly or through other cases; expected a case "
                        "that does not extend this case");
-    apply_with_bases(document, base, catalogue, seen);
+    apply_with_extended_cases(document, base, catalogue, seen);
   }
   const bool outermost = seen.size() == 1;
   document.apply_patch(file.string(), "", outermost ? json : select_inherited_keys(json));
@@ -65,7 +65,7 @@ void validate_variant_names(const Case& given) {
 }
 
 /// Requires that each indicator of the key "stress_suite" is the name of a check of the case.
-void check_indicators(const Case& given) {
+void require_checks_of_indicators(const Case& given) {
   const JsonView root(given.document);
   if (!root.has("stress_suite")) return;
   std::vector<std::string> names;
@@ -111,7 +111,7 @@ void require_settable_key(const Document& document, const JsonView& pointer, con
   }
 }
 
-Json patch_of_pointers(const JsonView& sweep, const Document& document, const Json& value) {
+Json patch_setting_pointers(const JsonView& sweep, const Document& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
     require_settable_key(document, at, value);
@@ -186,10 +186,10 @@ Case load_case(const fs::path& file) {
 Case load_case(const fs::path& file, const Catalogue& catalogue) {
   Case loaded;
   loaded.file = file;
-  apply_with_bases(loaded.document, file, catalogue, {});
+  apply_with_extended_cases(loaded.document, file, catalogue, {});
   loaded.document.validate("case");
   validate_variant_names(loaded);
-  check_indicators(loaded);
+  require_checks_of_indicators(loaded);
   return loaded;
 }
 
@@ -257,7 +257,7 @@ std::vector<Level> sweep_levels(const Document& variant, const JsonView& sweep) 
   for (std::size_t i = 0; i < values.size(); ++i) {
     Level level{values[i].get<double>(), variant};
     const Json patch = by_patches ? sweep["patches"][i].json()
-                                  : patch_of_pointers(sweep, variant, values[i].json());
+                                  : patch_setting_pointers(sweep, variant, values[i].json());
     const JsonView place = by_patches ? sweep["patches"][i] : values[i];
     const Origin written = sweep.document().origin(place.pointer());
     if (by_patches) {

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
 
 /// Returns true if a file below the catalogue's folder is in a subfolder without cases.
-bool is_no_case(std::string_view path_below) {
+bool is_outside_case_folders(std::string_view path_below) {
   return std::ranges::any_of(kOtherRooms,
                              [&](std::string_view room) { return path_below.starts_with(room); });
 }
@@ -37,7 +37,7 @@ Catalogue::Catalogue() {
 Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(folder.string())) {
   const std::size_t above = folder.string().size();
   std::erase_if(files_, [&](const auto& item) {
-    return is_no_case(std::string_view(item.second).substr(above));
+    return is_outside_case_folders(std::string_view(item.second).substr(above));
   });
   std::ranges::sort(files_);
   const auto twice = std::ranges::adjacent_find(
@@ -121,7 +121,7 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
   if (chosen.empty() && !known.empty())
     throw InputError(
         "no case of the catalogue has this combination of labels; expected labels "
-        "that a case has in common");
+        "of at least one common case");
   return chosen;
 }
 

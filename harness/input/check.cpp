@@ -23,7 +23,7 @@ void require_variant(const JsonView& place, const std::vector<std::string>& vari
 
 /// Returns the only one of the alternative `keys` that the JSON object contains. Rejects an object
 /// that contains none or several of the keys.
-std::string find_only_key(const JsonView& place, const std::vector<std::string>& keys) {
+std::string find_only_alternative_key(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
   for (const std::string& key : keys) {
@@ -79,7 +79,7 @@ OrderCriterion read_order_check(const JsonView& place, const std::string& quanti
     throw place["sweep"].error(
         "an 'order' check requires a sweep with the key 'theory_order' (this sweep has none)");
   order.of_errors = own.value("is_error", false);
-  if (find_only_key(place, {"within", "two_term_within"}) == "within") {
+  if (find_only_alternative_key(place, {"within", "two_term_within"}) == "within") {
     order.within = place.number("within");
   } else {
     order.two_term_within = place.number("two_term_within");
@@ -120,7 +120,7 @@ double decimal(double sum) {
 }
 
 /// Returns the allowed intervals [v - w, v + w] for the stated values v and one half width w.
-std::vector<Window> windows_around(const JsonView& values, double half_width) {
+std::vector<Window> windows_around_values(const JsonView& values, double half_width) {
   std::vector<Window> windows;
   const auto add = [&](double value) {
     windows.push_back({decimal(value - half_width), decimal(value + half_width)});
@@ -141,20 +141,20 @@ std::vector<Window> read_windows(const JsonView& place) {
 }
 
 void read_expectation(const JsonView& place, Check& check) {
-  const std::string kind = find_only_key(place, {"agrees", "known_discrepancy"});
+  const std::string kind = find_only_alternative_key(place, {"agrees", "known_discrepancy"});
   check.expectation = kind == "agrees" ? Expectation::agrees : Expectation::known_discrepancy;
   check.why = place.text(kind);
-  const std::string key =
-      find_only_key(place, {"relative", "absolute", "ratio", "value", "relative_between",
-                            "absolute_between", "ratio_between", "value_between"});
+  const std::string key = find_only_alternative_key(
+      place, {"relative", "absolute", "ratio", "value", "relative_between", "absolute_between",
+              "ratio_between", "value_between"});
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
   if (is_value != place.has("within"))
     throw place.error(is_value ? "'" + key + "' requires 'within', the half width of the range"
                                : "'within' requires '" + measure + "' (got '" + key + "')");
   check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
-  check.windows =
-      is_value ? windows_around(place[key], place.number("within")) : read_windows(place[key]);
+  check.windows = is_value ? windows_around_values(place[key], place.number("within"))
+                           : read_windows(place[key]);
   require_discrepancy(place[key], check);
   if (place.has("validation_verdicts"))
     place["validation_verdicts"].json().get_to(check.validation_verdicts);
@@ -190,8 +190,8 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
     for (const char* key : {"tolerance", "bound", "order"}) {
       if (place.has(key))
         throw place[key].error(
-            "a check of role validation does not use this key; expected 'expect', "
-            "which records its expected result");
+            "a check of role validation does not use this key; expected the key 'expect' "
+            "with the expected verdict");
     }
     check.expectation = Expectation::none;
     if (place.has("expect")) read_expectation(place["expect"], check);
@@ -199,7 +199,7 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
   }
   if (place.has("expect"))
     throw place["expect"].error("'expect' requires the role 'validation' (got another role)");
-  const std::string key = find_only_key(place, {"tolerance", "bound", "order"});
+  const std::string key = find_only_alternative_key(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
   if (key == "order") {

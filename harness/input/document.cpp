@@ -6,21 +6,21 @@ namespace trammel::harness {
 namespace {
 
 /// Returns a JSON value without those members of objects that are null.
-Json without_nulls(const Json& value) {
+Json remove_nulls(const Json& value) {
   if (!value.is_object()) return value;
   Json kept = Json::object();
   // Members are appended, because operator[] would make the cost quadratic in the number of keys.
   Json::object_t::Container& members = kept.get_ref<Json::object_t&>();
   members.reserve(value.size());
   for (const auto& item : value.items())
-    if (!item.value().is_null()) members.emplace_back(item.key(), without_nulls(item.value()));
+    if (!item.value().is_null()) members.emplace_back(item.key(), remove_nulls(item.value()));
   return kept;
 }
 
 /// Applies a merge patch (RFC 7386). Objects that the target lacks are copied in one pass.
 void merge(Json& target, const Json& patch) {
   if (!patch.is_object() || !target.is_object() || target.empty()) {
-    target = without_nulls(patch);
+    target = remove_nulls(patch);
     return;
   }
   for (const auto& item : patch.items()) {

@@ -29,18 +29,18 @@ std::string user_reference_file(const fs::path& case_file) {
   return (folder / kOwnFile).string();
 }
 
-std::string place_of(const std::string& file, const std::string& id) {
+std::string reference_place(const std::string& file, const std::string& id) {
   return file + "#/" + id;
 }
 
 /// Splits the place "FILE#/ID" of a reference into file and id.
-std::pair<std::string, std::string> parts_of(const std::string& place) {
+std::pair<std::string, std::string> split_reference_place(const std::string& place) {
   const std::size_t end = place.rfind("#/");
   if (end == std::string::npos) return {place, ""};
   return {place.substr(0, end), place.substr(end + 2)};
 }
 
-InputError not_unique(const std::string& file, const std::string& id, const std::string& other) {
+InputError repeated_id(const std::string& file, const std::string& id, const std::string& other) {
   return {file, "/" + id,
           "two references have this id; expected a unique id (the id is also in " + other + ")"};
 }
@@ -105,17 +105,17 @@ std::string References::find_in_catalogue(const std::string& id) const {
   if (!references::is_reference_id(id)) return {};
   for (const auto& [key, file] : catalogue_keys()) {
     if (key != id) continue;
-    if (found != nullptr) throw not_unique(*file, id, *found);
+    if (found != nullptr) throw repeated_id(*file, id, *found);
     found = file;
   }
-  if (found != nullptr && has(*found, id)) return place_of(*found, id);
+  if (found != nullptr && has(*found, id)) return reference_place(*found, id);
   const auto places = catalogue();  // also searches files of unusual format
   const auto place = places.find(id);
   return place == places.end() ? "" : place->second;
 }
 
 CitedReference References::read(const std::string& place) const {
-  const auto [file, id] = parts_of(place);
+  const auto [file, id] = split_reference_place(place);
   if (!has(file, id))
     throw InputError(file, "/" + id,
                      "the file has no reference with this id; expected a key of the file");
@@ -133,7 +133,7 @@ CitedReference References::read(const std::string& place) const {
   if (const auto schema_error = find_schema_fault(json, "reference"))
     throw InputError(file, schema_error->pointer, schema_error->message);
   try {
-    const nlohmann::json merged = references::add_common_keys(
+    const nlohmann::json merged = references::merge_common_keys(
         common ? nlohmann::json(json.front()) : nlohmann::json(), nlohmann::json(json.back()));
     CitedReference cited{references::read_reference(merged, file, id), {}};
     cited.source = source(cited.reference.source, file);
@@ -156,7 +156,7 @@ std::string References::find(const std::string& name, const std::string& case_fi
                              const JsonView& id) const {
   const std::string own = user_reference_file(case_file);
   if (!own.empty()) {
-    std::string place = place_of(own, name);
+    std::string place = reference_place(own, name);
     if (has(own, name)) return place;
     absent_.insert(std::move(place));
   }
@@ -183,14 +183,14 @@ std::map<std::string, std::string> References::catalogue() const {
     for (const references::JsonMember& member : members(file)) {
       if (!references::is_reference_id(member.key)) continue;
       const std::string id(member.key);
-      const auto [place, is_new] = places.emplace(id, place_of(file, id));
-      if (!is_new) throw not_unique(file, id, parts_of(place->second).first);
+      const auto [place, is_new] = places.emplace(id, reference_place(file, id));
+      if (!is_new) throw repeated_id(file, id, split_reference_place(place->second).first);
     }
   return places;
 }
 
 std::string References::hash(const std::string& place) const {
-  const auto [file, id] = parts_of(place);
+  const auto [file, id] = split_reference_place(place);
   try {
     if (!has(file, id)) return {};
   } catch (const InputError&) {

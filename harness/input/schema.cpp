@@ -10,7 +10,7 @@ namespace trammel::harness {
 namespace {
 
 bool equals(const Json& value, const SchemaRule& choice) {
-  if (value.is_string() && choice.IsString()) return value == string_of(choice);
+  if (value.is_string() && choice.IsString()) return value == schema_string(choice);
   return value.is_number() && choice.IsNumber() && value.get<double>() == choice.GetDouble();
 }
 
@@ -23,7 +23,7 @@ bool matches_name_pattern(const std::string& text) {
   });
 }
 
-bool is_unique(const Json& array) {
+bool has_unique_elements(const Json& array) {
   for (auto item = array.begin(); item != array.end(); ++item)
     if (std::find(array.begin(), item, *item) != item) return false;
   return true;
@@ -35,7 +35,7 @@ bool has_all(const Json& object, const SchemaRule& keys) {
 }
 
 /// Returns true if a number has no fraction, in any notation: 2, 2.0 and 2e0 alike.
-bool is_whole(const Json& value) {
+bool is_whole_number(const Json& value) {
   if (!value.is_number_float()) return value.is_number_integer();
   return std::trunc(value.get<double>()) == value.get<double>();
 }
@@ -43,7 +43,7 @@ bool is_whole(const Json& value) {
 /// Returns true if a JSON value has a type that the schema rule allows.
 bool has_type(const Json& value, const SchemaRule& rule) {
   return keyword(rule, "type") == nullptr || rule_allows_type(rule, value.type_name()) ||
-         (is_whole(value) && rule_allows_type(rule, "integer"));
+         (is_whole_number(value) && rule_allows_type(rule, "integer"));
 }
 
 /// Returns true if a JSON value satisfies one keyword of a schema, such as "minimum". The type and
@@ -67,7 +67,7 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
     return value.size() >= limit.GetUint64();
   if (name == (value.is_array() ? "maxItems" : "maxProperties"))
     return value.size() <= limit.GetUint64();
-  if (value.is_array()) return name != "uniqueItems" || is_unique(value);
+  if (value.is_array()) return name != "uniqueItems" || has_unique_elements(value);
   if (name == "required") return has_all(value, limit);
   return name != "dependencies" ||
          std::all_of(limit.MemberBegin(), limit.MemberEnd(), [&](const auto& item) {

@@ -64,7 +64,7 @@ void open(const SchemaRule& root, const SchemaRule& stated, Rules& rules) {
   for (const SchemaRule& alternative : any->GetArray()) open(root, alternative, rules);
 }
 
-std::size_t count_of(const SchemaRule& rule, const char* name, std::size_t otherwise) {
+std::size_t count_or_default(const SchemaRule& rule, const char* name, std::size_t otherwise) {
   const SchemaRule* count = keyword(rule, name);
   return count == nullptr ? otherwise : count->GetUint64();
 }
@@ -85,8 +85,8 @@ std::string describe_rule(const SchemaRule& root, const SchemaRule& rule);
 
 std::string describe_array(const SchemaRule& root, const SchemaRule& rule) {
   std::string text = "an array";
-  const std::size_t min_count = count_of(rule, "minItems", 0);
-  const std::size_t max_count = count_of(rule, "maxItems", 0);
+  const std::size_t min_count = count_or_default(rule, "minItems", 0);
+  const std::size_t max_count = count_or_default(rule, "maxItems", 0);
   if (min_count > 0 && min_count == max_count) {
     text += " of " + std::to_string(min_count);
   } else if (max_count > 0) {
@@ -104,7 +104,7 @@ std::string describe_array(const SchemaRule& root, const SchemaRule& rule) {
 }
 
 std::string describe_choice(const SchemaRule& choice) {
-  if (choice.IsString()) return quoted(string_of(choice));
+  if (choice.IsString()) return quoted(schema_string(choice));
   using Encoding = rapidjson::UTF8<>;
   using Text = rapidjson::GenericStringBuffer<Encoding, SchemaAllocator>;
   Text text;
@@ -143,7 +143,7 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
     const SchemaRule* others = keyword(*rule, "additionalProperties");
     if (others == nullptr || !others->IsFalse()) return {};
     if (const SchemaRule* properties = keyword(*rule, "properties"))
-      for (const auto& item : properties->GetObject()) keys.push_back(string_of(item.name));
+      for (const auto& item : properties->GetObject()) keys.push_back(schema_string(item.name));
   }
   std::ranges::sort(keys);
   return keys;
@@ -155,7 +155,7 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
 }
 
 /// Returns the keys of an object as text for messages: "(got 'a' and 'b')".
-std::string got_keys(const Json& object) {
+std::string list_keys(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
   std::ranges::sort(keys);
@@ -172,12 +172,12 @@ std::string join_pointer(const std::vector<std::string>& path) {
 std::vector<std::string> find_required_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {
-    for (const SchemaRule& name : names.GetArray()) keys.push_back(string_of(name));
+    for (const SchemaRule& name : names.GetArray()) keys.push_back(schema_string(name));
   };
   if (const SchemaRule* required = keyword(rule, "required")) add(*required);
   if (const SchemaRule* dependencies = keyword(rule, "dependencies"))
     for (const auto& item : dependencies->GetObject())
-      if (object.contains(string_of(item.name))) add(item.value);
+      if (object.contains(schema_string(item.name))) add(item.value);
   return keys;
 }
 
@@ -195,10 +195,10 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
   for (const SchemaRule* rule : rules) {
     for (const std::string& key : find_required_keys(object, *rule)) {
       if (object.contains(key)) continue;
-      return {join_pointer(path), "expected the key " + quoted(key) + got_keys(object)};
+      return {join_pointer(path), "expected the key " + quoted(key) + list_keys(object)};
     }
-    const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
-    if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {
+    const std::size_t max_count = count_or_default(*rule, "maxProperties", object.size());
+    if (object.size() < count_or_default(*rule, "minProperties", 0) || object.size() > max_count) {
       const std::vector<std::string> needed = find_required_keys(object, *rule);
       std::vector<std::string> others;
       std::set_difference(allowed.begin(), allowed.end(), needed.begin(), needed.end(),
@@ -206,7 +206,7 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
       const bool one = max_count == needed.size() + 1;
       const std::string count = one ? "exactly one of " : "at least one of ";
       wanted = (allowed.empty() ? "at least one key" : count + all_quoted(others, "or")) +
-               got_keys(object) + (one && object.size() > max_count ? "; null removes a key" : "");
+               list_keys(object) + (one && object.size() > max_count ? "; null removes a key" : "");
     }
   }
   return {join_pointer(path), "expected " + wanted};
@@ -220,7 +220,7 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
     if (!contains(wanted, text)) wanted.push_back(text);
     if (const SchemaRule* stated = keyword(*rule, "enum"))
       for (const SchemaRule& choice : stated->GetArray())
-        if (choice.IsString()) choices.push_back(string_of(choice));
+        if (choice.IsString()) choices.push_back(schema_string(choice));
     if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr)
       suffix = " without duplicates";
   }

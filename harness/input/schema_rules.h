@@ -64,7 +64,7 @@ struct BrokenRules {
 /// @param schema  root of the schema document
 [[nodiscard]] SchemaFault describe_violation(const SchemaRule& schema, const BrokenRules& broken);
 
-[[nodiscard]] inline std::string string_of(const SchemaRule& value) {
+[[nodiscard]] inline std::string schema_string(const SchemaRule& value) {
   return {value.GetString(), value.GetStringLength()};
 }
 

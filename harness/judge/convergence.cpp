@@ -19,7 +19,7 @@ bool orders_agree(double order, double other) {
   return std::abs(order - other) <= kOrderTolerance * std::max(std::abs(other), 1.0);
 }
 
-double relative(double value, double reference) {
+double relative_distance(double value, double reference) {
   return std::abs(value - reference) / std::abs(reference);
 }
 
@@ -171,7 +171,7 @@ class ConvergenceStudy {
     const Number reference = series_.exact ? series_.exact : series_.richardson;
     for (std::size_t k = 0; reference && k < count(); ++k) {
       if (series_.is_error) error_[k] = std::abs(v_[k]);
-      if (!series_.is_error && *reference != 0) error_[k] = relative(v_[k], *reference);
+      if (!series_.is_error && *reference != 0) error_[k] = relative_distance(v_[k], *reference);
     }
     for (std::size_t k = 1; k < count(); ++k)
       order_[k] = series_.exact ? order_of_two_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])

@@ -23,7 +23,7 @@ struct NotComparable {
   bool is_missing = false;  ///< true if the requested quantity is missing
 };
 
-std::vector<std::string> names_of(const Quantities& quantities) {
+std::vector<std::string> names_of_quantities(const Quantities& quantities) {
   std::vector<std::string> names;
   for (const auto& item : quantities) names.push_back(item.first);
   return names;
@@ -31,7 +31,7 @@ std::vector<std::string> names_of(const Quantities& quantities) {
 
 /// Lists the names of the available quantities without the part after the colon: " (computed
 /// quantities: frequency_Hz and ...)".
-std::string known_kinds(const Quantities& quantities) {
+std::string list_quantity_kinds(const Quantities& quantities) {
   constexpr std::size_t most = 12;
   std::vector<std::string> kinds;
   for (const auto& item : quantities) {
@@ -52,10 +52,10 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
   if (found != quantities.end()) return found->second.values;
   const bool has_entry = quantities.contains(name.substr(0, name.find(':')));
   const std::string guess = has_entry ? "; the key 'index' selects a value, from 0"
-                                      : did_you_mean(name, names_of(quantities));
-  throw NotComparable{
-      "no quantity '" + name + "'" + where + (guess.empty() ? known_kinds(quantities) : guess),
-      true};
+                                      : did_you_mean(name, names_of_quantities(quantities));
+  throw NotComparable{"no quantity '" + name + "'" + where +
+                          (guess.empty() ? list_quantity_kinds(quantities) : guess),
+                      true};
 }
 
 std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& index,
@@ -152,8 +152,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
 
 /// Sets the verdict of an entry of a check by its tolerance. The computed and expected values must
 /// be set before the call.
-void evaluate_entry(const Check& check, const Window* window, double uncertainty,
-                    CheckResult& entry) {
+void judge_entry(const Check& check, const Window* window, double uncertainty, CheckResult& entry) {
   const double expected = check.has_comparison_target() ? *entry.expected : 0;
   if (!std::isfinite(*entry.computed)) {
     entry.message = "the computed value is " + shortest_decimal(*entry.computed);
@@ -164,7 +163,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     return;
   }
   const double value =
-      check.measure == Measure::value ? *entry.computed : *results::difference_of(entry);
+      check.measure == Measure::value ? *entry.computed : *results::difference_of_check(entry);
   if (!std::isfinite(value)) {
     entry.message = "the measure " + std::string(to_string(check.measure)) +
                     " is undefined for an expected value of " + shortest_decimal(expected);
@@ -200,8 +199,8 @@ std::vector<CheckResult> keep_worst_entry(std::vector<CheckResult> entries) {
   return {worst};
 }
 
-std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs,
-                                          const results::SolverIdentity* other_solver) {
+std::vector<CheckResult> evaluate_check_entries(const Check& check, const ComparedValues& pairs,
+                                                const results::SolverIdentity* other_solver) {
   std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
     CheckResult entry = create_check_result(check);
@@ -213,16 +212,16 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
     std::optional<Window> printed;
     if (window != nullptr && other_solver != nullptr && other_solver->digits)
       window = &printed.emplace(widened(*window, check, entry, *other_solver->digits));
-    evaluate_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
+    judge_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
     entries.push_back(std::move(entry));
   }
   return entries.size() > kMaxEntries ? keep_worst_entry(std::move(entries)) : entries;
 }
 
-std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContext& context) {
+std::vector<CheckResult> evaluate_computed_values(const Check& check, const CheckContext& context) {
   try {
     if (check.order) return evaluate_order_check(check, context);
-    return evaluate_entries(check, collect(check, context), context.other_solver);
+    return evaluate_check_entries(check, collect(check, context), context.other_solver);
   } catch (const NotComparable& reason) {
     CheckResult failed = failed_check_result(check, reason.message);
     if (reason.is_missing && context.other_solver != nullptr) failed.verdict = Verdict::not_given;
@@ -231,7 +230,7 @@ std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContex
 }
 
 /// Judges a negative control: it passes if the worst entry has the required verdict and message.
-CheckResult judge_control(const Check& check, const std::vector<CheckResult>& entries) {
+CheckResult judge_negative_control(const Check& check, const std::vector<CheckResult>& entries) {
   CheckResult control = keep_worst_entry(entries).front();
   const NegativeControl& asked = *check.negative_control;
   const std::string verdict = to_string(control.verdict);
@@ -258,8 +257,8 @@ std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& 
     control.verdict = Verdict::not_given;
     return {control};
   }
-  std::vector<CheckResult> entries = evaluate_computed(check, context);
-  if (check.negative_control) return {judge_control(check, entries)};
+  std::vector<CheckResult> entries = evaluate_computed_values(check, context);
+  if (check.negative_control) return {judge_negative_control(check, entries)};
   return entries;
 }
 

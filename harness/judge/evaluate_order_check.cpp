@@ -19,8 +19,8 @@ struct Entry {
   double share = 1;
 };
 
-double entry_of(const references::Reference& reference, const std::vector<std::size_t>& index,
-                std::size_t position) {
+double reference_entry(const references::Reference& reference,
+                       const std::vector<std::size_t>& index, std::size_t position) {
   const std::size_t at = index.empty() ? position : index.at(position);
   return at < reference.values.size() ? reference.values[at] : kNaN;
 }
@@ -215,8 +215,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
         check.index.empty() || contains(check.index, static_cast<std::size_t>(series.index));
     if (!chosen) continue;
     if (!criterion.of_errors &&
-        series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
-                                 check.reference_index, position)) {
+        series.exact != reference_entry(find_reference(context, check.pointer + "/reference"),
+                                        check.reference_index, position)) {
       all.push_back(failed_check_result(
           check, fmt::format("the refinement's errors are taken against {}, not against {}",
                              series.reference.empty() ? "no reference" : series.reference,
@@ -229,11 +229,11 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
     if (criterion.wave_number) {
       const auto& reference =
           find_reference(context, criterion.wave_number->pointer + "/reference");
-      entry.wave_number = entry_of(reference, criterion.wave_number->index, position);
+      entry.wave_number = reference_entry(reference, criterion.wave_number->index, position);
     }
     if (criterion.leading_term && !criterion.leading_term->share.empty()) {
       const auto& reference = find_reference(context, criterion.leading_term->pointer + "/share");
-      entry.share = entry_of(reference, {}, position);
+      entry.share = reference_entry(reference, {}, position);
     }
     const auto judged = OrderCheckEvaluator(check, entry, is_other_solver).run();
     all.insert(all.end(), judged.begin(), judged.end());

@@ -55,7 +55,7 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
   return all;
 }
 
-results::Number exact_value_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
+results::Number exact_entry_value(const TrackedQuantity& tracked_quantity, std::size_t position) {
   if (tracked_quantity.reference == nullptr ||
       tracked_quantity.reference->unit != unit_of(tracked_quantity.quantity)) {
     return std::nullopt;
@@ -67,9 +67,9 @@ results::Number exact_value_of(const TrackedQuantity& tracked_quantity, std::siz
   return tracked_quantity.reference->values[at];
 }
 
-Convergence track_entry(const Sweep& sweep, const JsonView& place,
-                        const TrackedQuantity& tracked_quantity, std::size_t index,
-                        std::size_t position, results::Number element_order) {
+Convergence convergence_of_entry(const Sweep& sweep, const JsonView& place,
+                                 const TrackedQuantity& tracked_quantity, std::size_t index,
+                                 std::size_t position, results::Number element_order) {
   Convergence series;
   series.sweep = sweep.name;
   series.quantity = tracked_quantity.quantity;
@@ -92,8 +92,8 @@ Convergence track_entry(const Sweep& sweep, const JsonView& place,
     series.roundoff.push_back(roundoff);
   }
   series.is_error = tracked_quantity.is_error;
-  series.exact =
-      tracked_quantity.is_error ? results::Number(0) : exact_value_of(tracked_quantity, position);
+  series.exact = tracked_quantity.is_error ? results::Number(0)
+                                           : exact_entry_value(tracked_quantity, position);
   if (series.exact && tracked_quantity.reference) series.reference = tracked_quantity.reference->id;
   return series;
 }
@@ -129,11 +129,11 @@ std::vector<Convergence> sweep_convergence(const Sweep& sweep, const Document& d
   if (tracked == TrackedQuantities::all) add_other_quantities(sweep, tracked_quantities);
   std::vector<Convergence> found;
   for (const TrackedQuantity& tracked_quantity : tracked_quantities) {
-    if (is_count(tracked_quantity.quantity)) continue;
+    if (is_count_quantity(tracked_quantity.quantity)) continue;
     const std::vector<std::size_t> chosen = entries(sweep, tracked_quantity);
     for (std::size_t position = 0; position < chosen.size(); ++position) {
-      Convergence series =
-          track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
+      Convergence series = convergence_of_entry(sweep, place, tracked_quantity, chosen[position],
+                                                position, element_order);
       // An exact value of zero, such as the frequency of a rigid motion, has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
       found.push_back(analyze_convergence(std::move(series)));

@@ -104,7 +104,7 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
 
 /// Records dimensionless numbers that predict the importance of physical effects, and the numbers
 /// and lengths of time steps.
-void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+void record_motion_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;
   if (summary.accepted > 0) {  // the solution was computed by time integration
@@ -128,7 +128,7 @@ void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSoluti
                  Drawing& drawing) {
   std::vector<Eigen::VectorXd> q;
   for (const solver::StaticSolution& state : solution.state) q.push_back(state.q);
-  for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
+  for (const std::size_t i : samples_to_draw(q, drawing.nodes.size())) {
     const solver::System system = solver::assemble(build_model(case_model, i));
     const std::string label = time_label(solution.time[i]);
     drawing.poses.push_back({label, draw_model(system, true)->nodes, solution.time[i],
@@ -219,7 +219,7 @@ StepResult analyze_elastodynamics(const JsonView& analysis, const CaseModel& cas
     record_distance("dynamic_to_quasi_static_difference", slow, solution.deflection, record);
   if (analysis.get("step_errors", false)) record_step_errors(options, large, solution, record);
   if (options.elastic_inertia) record_damping(options.damping, start, record);
-  record_summary(solution, record);
+  record_motion_summary(solution, record);
   if (result.drawing && !large) draw_motion(case_model, solution, *result.drawing);
   return result;
 }

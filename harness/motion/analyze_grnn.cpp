@@ -48,7 +48,7 @@ struct PathSamples {
 
 /// Reads a matrix row by row.
 /// @throws InputError  if rows differ in length.
-Eigen::MatrixXd read_rows(const JsonView& rows) {
+Eigen::MatrixXd read_matrix_rows(const JsonView& rows) {
   const std::size_t columns = rows[0].size();
   Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
                          static_cast<solver::Index>(columns));
@@ -66,7 +66,7 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
 /// Reads the "inputs" and "outputs" of a case's samples.
 /// @throws InputError  if rows differ in length, or inputs and outputs differ in number.
 GrnnSamples read_samples(const JsonView& samples) {
-  GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
+  GrnnSamples read{read_matrix_rows(samples["inputs"]), read_matrix_rows(samples["outputs"]), {}};
   if (read.inputs.rows() != read.outputs.rows())
     throw samples["outputs"].error("expected the number of rows of 'inputs', " +
                                    std::to_string(read.inputs.rows()));
@@ -127,7 +127,7 @@ void sample_flexible_motion(const JsonView& place, const CaseModel& case_model, 
   const Eigen::RowVector3d start = outputs.row(0).head<3>();
   solver::Index k = 0;
   path.outcome =
-      integrate_tracked(case_model, system, options, [&](const solver::large_motion::State& now) {
+      integrate_tracking(case_model, system, options, [&](const solver::large_motion::State& now) {
         const bool on_time =
             k < outputs.rows() &&
             std::abs(now.t - case_model.motion[solver::to_size(k)].time) < options.step / 2;
@@ -141,7 +141,7 @@ void sample_flexible_motion(const JsonView& place, const CaseModel& case_model, 
 
 /// Sets the smoothing parameter of the network: the value stated in the case, or the value with the
 /// least cross-validation error.
-void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
+void choose_smoothing_parameter(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma"))
     throw analysis.error("expected at most one of 'sigma' and 'spread' (got both)");
   if (analysis.has("sigma")) {
@@ -227,9 +227,9 @@ void record_sample_errors(const std::string& part, const std::vector<solver::Ind
 /// nearest sample.
 ///   skill = 1 - (rms error / rms error of the trivial predictor)^2
 /// A perfect prediction has skill 1. A prediction as good as the trivial predictor has skill 0.
-void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
-                  const std::vector<solver::Index>& which, double error, const OutputScales& scales,
-                  Recorder& record) {
+void record_prediction_skill(const solver::Grnn& network, const GrnnSamples& samples,
+                             const std::vector<solver::Index>& which, double error,
+                             const OutputScales& scales, Recorder& record) {
   const Eigen::MatrixXd queries = rows(samples.inputs, which);
   const Eigen::MatrixXd expected = rows(samples.outputs, which);
   const auto against = [&](const char* name, double sigma) {
@@ -247,21 +247,21 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
 /// Measures the computing time of predictions at every point of the path, both in one batch and one
 /// by one. Also measures the computations that the network replaces: forward dynamics to the next
 /// point of the path, and inverse dynamics.
-std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
-                                                 const solver::RigidManipulator& manipulator,
-                                                 const CaseModel& case_model,
-                                                 const GrnnSamples& samples) {
+std::vector<EvaluationTime> time_predictions_and_solves(const solver::Grnn& network,
+                                                        const solver::RigidManipulator& manipulator,
+                                                        const CaseModel& case_model,
+                                                        const GrnnSamples& samples) {
   const std::size_t count = case_model.motion.size();
   double sink = 0;  // uses each result, so that the compiler cannot remove its computation
   std::vector<EvaluationTime> timings;
-  timings.push_back(time_evaluation("prediction_in_a_batch", count, [&] {
+  timings.push_back(measure_evaluation("prediction_in_a_batch", count, [&] {
     sink += solver::predict(network, samples.inputs).sum();
   }));
-  timings.push_back(time_evaluation("prediction_one_by_one", count, [&] {
+  timings.push_back(measure_evaluation("prediction_one_by_one", count, [&] {
     for (solver::Index k = 0; k < samples.inputs.rows(); ++k)
       sink += solver::predict(network, samples.inputs.row(k))(0, 0);
   }));
-  timings.push_back(time_evaluation("inverse_dynamics", count, [&] {
+  timings.push_back(measure_evaluation("inverse_dynamics", count, [&] {
     for (const solver::TrajectoryPoint& point : case_model.motion)
       sink +=
           solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose))
@@ -269,7 +269,7 @@ std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
   }));
   if (count < 2 || !loads_at_P_only(case_model)) return timings;
   const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
-  timings.push_back(time_evaluation("forward_dynamics_to_the_next_point", count - 1, [&] {
+  timings.push_back(measure_evaluation("forward_dynamics_to_the_next_point", count - 1, [&] {
     for (std::size_t k = 0; k + 1 < count; ++k) {
       const double from = case_model.motion[k].time, to = case_model.motion[k + 1].time;
       const auto row = static_cast<solver::Index>(k);
@@ -367,7 +367,7 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
     network = solver::make_grnn(rows(samples.inputs, parts.training),
                                 rows(samples.outputs, parts.training), 1,
                                 analysis.get("scaling", solver::InputScaling::none));
-    choose_sigma(analysis, network, record);
+    choose_smoothing_parameter(analysis, network, record);
     predicted = solver::predict(network, samples.inputs);
   }
   const Eigen::MatrixXd error = predicted - samples.outputs;
@@ -377,13 +377,13 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   record_sample_errors("training", parts.training, samples, error, scales, record);
   record_sample_errors("held_out", parts.held_out, samples, error, scales, record);
   if (!parts.held_out.empty() && !spline)
-    record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
-                 record);
+    record_prediction_skill(network, samples, parts.held_out,
+                            rms(rows(error, parts.held_out), scales), scales, record);
   if (!spline) record.add("kernel_evaluations", train);
   if (draw) {
     result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
     if (spline) return result;
-    result.timings = time_against_solving(network, manipulator, case_model, samples);
+    result.timings = time_predictions_and_solves(network, manipulator, case_model, samples);
   }
   return result;
 }
@@ -394,14 +394,14 @@ StepResult analyze_grnn_samples(const Document& document, const References&, boo
   if (!analysis.has("samples"))
     throw analysis.error("expected 'samples', or a model with 'trajectory'");
   const GrnnSamples samples = read_samples(analysis["samples"]);
-  const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
+  const Eigen::MatrixXd queries = read_matrix_rows(analysis["queries"]);
   if (queries.cols() != samples.inputs.cols())
     throw analysis["queries"].error("expected rows of " + std::to_string(samples.inputs.cols()) +
                                     " numbers, as in 'inputs'");
   try {
     solver::Grnn network = solver::make_grnn(samples.inputs, samples.outputs, 1,
                                              analysis.get("scaling", solver::InputScaling::none));
-    choose_sigma(analysis, network, record);
+    choose_smoothing_parameter(analysis, network, record);
     const Eigen::MatrixXd predicted = solver::predict(network, queries);
     for (solver::Index k = 0; k < predicted.rows(); ++k)
       for (solver::Index j = 0; j < predicted.cols(); ++j)

@@ -52,8 +52,8 @@ double record_energy(const solver::InverseDynamics& found, Recorder& record) {
 /// circular path, and the integral of the magnitude of their power. Inertia, gravity and a constant
 /// load contribute no net work. For a periodic integrand, the trapezoidal rule converges faster
 /// than any power of the step.
-void record_turn_work(const solver::RigidManipulator& manipulator, const CaseModel& case_model,
-                      const solver::Circle& circle, int points, Recorder& record) {
+void record_work_of_turn(const solver::RigidManipulator& manipulator, const CaseModel& case_model,
+                         const solver::Circle& circle, int points, Recorder& record) {
   const double period = 2 * std::numbers::pi / std::abs(circle.angular_speed);
   double work = 0, turnover = 0;
   for (int k = 0; k < points; ++k) {
@@ -96,8 +96,8 @@ StepResult analyze_inverse_dynamics(const JsonView& analysis, const CaseModel& c
   }
   const auto* circle = case_model.path ? std::get_if<solver::Circle>(&*case_model.path) : nullptr;
   if (circle && circle->angular_speed != 0)
-    record_turn_work(manipulator, case_model, *circle, analysis.get("points_per_revolution", 64),
-                     record);
+    record_work_of_turn(manipulator, case_model, *circle, analysis.get("points_per_revolution", 64),
+                        record);
   return result;
 }
 

@@ -35,14 +35,14 @@ struct OutputSelection {
 
 /// Returns the index of a named node. The node must have a rotation, because the analysis records
 /// an angle of the node or motions relative to the axes of the node.
-solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
+solver::Index node_with_rotation(const JsonView& name, const GeometricallyExactSystem& system) {
   const solver::Index node = find_node(name, system.model());
   if (system.layout().node[solver::to_size(node)][2] < 0)
     throw name.error("expected a node with a rotation (all members are hinged at this node)");
   return node;
 }
 
-OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSystem& system) {
+OutputSelection read_selection(const JsonView& analysis, const GeometricallyExactSystem& system) {
   const solver::Model& model = system.model();
   OutputSelection selection;
   if (const auto names = analysis.find("nodes")) {
@@ -53,12 +53,12 @@ OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSyst
       if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
   }
   if (analysis.has("relative_to"))
-    selection.seen_from = find_turning_node(analysis["relative_to"], system);
+    selection.seen_from = node_with_rotation(analysis["relative_to"], system);
   if (const auto angles = analysis.find("angles"))
     for (const auto& [name, place] : angles->entries()) {
-      Angle angle{name, find_turning_node(place["node"], system), -1,
+      Angle angle{name, node_with_rotation(place["node"], system), -1,
                   place.get("initial_rad", 0.0)};
-      if (place.has("from")) angle.from = find_turning_node(place["from"], system);
+      if (place.has("from")) angle.from = node_with_rotation(place["from"], system);
       selection.angles.push_back(angle);
     }
   return selection;
@@ -144,7 +144,7 @@ class MotionRecorder {
       record_.add("angle_rad", angle.name, angle.start + component_of(now.displacement));
       record_.add("angle_rate_rad_per_s", angle.name, component_of(now.velocity));
     }
-    record_drives(system_, state, record_);
+    record_actuator_drives(system_, state, record_);
     for (const solver::large_motion::Torque& torque : system_.large_motion().torques)
       record_.add("torque_N_m", torque.name, torque.law(state.t));
     const solver::large_motion::Energy energy = system_.energy(state);
@@ -161,7 +161,7 @@ class MotionRecorder {
   Recorder& record_;
 };
 
-void require_path_to_the_end(const JsonView& analysis, const solver::Path& path) {
+void require_path_until_end_time(const JsonView& analysis, const solver::Path& path) {
   try {
     (void)solver::at(path, analysis.number("end_time_s"));
   } catch (const solver::ModelError& error) {
@@ -192,7 +192,7 @@ solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::TransientOptions& options, bool extrapolated,
     const solver::large_motion::Observer& look) {
-  if (tracking) return integrate_tracked(case_model, system, options, look);
+  if (tracking) return integrate_tracking(case_model, system, options, look);
   State state;
   return extrapolated ? integrate_extrapolated(system, state, options, look)
                       : integrate(system, state, options, look);
@@ -225,7 +225,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
     add_tracking(analysis["track"],
                  analysis.text("track") == "torques" ? Tracking::torques : Tracking::angles,
                  case_model, model, large_motion);
-    require_path_to_the_end(analysis, *case_model.path);
+    require_path_until_end_time(analysis, *case_model.path);
     for (const char* key : {"extrapolated", "initial_velocities"})
       if (analysis.has(key)) throw analysis[key].error("this key excludes 'track'");
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha")
@@ -237,7 +237,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   options.breakpoints = system.large_motion().load_breakpoints;
   StepResult result;
   if (draw) result.drawing = draw_initial_pose(system, case_model.manipulator.has_value());
-  MotionRecorder log(system, read_kept(analysis, system), record);
+  MotionRecorder log(system, read_selection(analysis, system), record);
   const auto moments =
       static_cast<double>(result.drawing ? max_drawn_times(result.drawing->nodes.size()) - 1 : 1);
   State last;

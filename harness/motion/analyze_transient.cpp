@@ -49,8 +49,8 @@ struct MotionHistory {
 };
 
 /// Returns the loads multiplied by the load history, and the weight, which is constant.
-solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
-                                         const solver::LoadHistory& history) {
+solver::PiecewiseLinearLoad time_dependent_load(const solver::System& system,
+                                                const solver::LoadHistory& history) {
   const VectorXd weight = system.T.transpose() * system.weight;
   return load_by_history(history, system.f - weight, weight);
 }
@@ -140,7 +140,7 @@ class Motion {
         system_(system),
         damped_(damped),
         factor_(read_load_history(transient)),
-        load_(load_in_time(system, factor_)) {}
+        load_(time_dependent_load(system, factor_)) {}
 
   MotionHistory run() {
     history_.counters = system_.counters;
@@ -288,7 +288,7 @@ class Motion {
 /// Returns the fraction of the initial velocity that a reduced basis cannot represent: the norm of
 /// this part, relative to that of the full initial velocity. The norm is that of kinetic energy.
 /// Returns 0 if there is no initial velocity.
-double unrepresented_velocity(const JsonView& transient, const solver::System& full,
+double lost_velocity_fraction(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");
   if (!initial || !initial->has("velocity_m_per_s")) return 0;
@@ -314,9 +314,9 @@ MotionHistory compute_motion(const JsonView& transient, const solver::System& sy
 }
 
 /// Returns the state of a model at one sample time, with section forces if an output requires them.
-ModelState state_of(const solver::System& system, const MotionHistory& motion,
-                    const std::optional<solver::LateStrain>& late, solver::Index sample,
-                    bool with_forces) {
+ModelState state_at_sample(const solver::System& system, const MotionHistory& motion,
+                           const std::optional<solver::LateStrain>& late, solver::Index sample,
+                           bool with_forces) {
   ModelState state;
   if (with_forces) {
     solver::ElasticState elastic;
@@ -362,7 +362,7 @@ void warn_of_reduced_basis(double missing, std::vector<Warning>& warnings) {
 void draw_motion(const solver::System& system, const MotionHistory& motion, Drawing& drawing) {
   std::vector<Eigen::VectorXd> q;
   for (solver::Index i = 0; i < motion.q.cols(); ++i) q.emplace_back(motion.q.col(i));
-  for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
+  for (const std::size_t i : samples_to_draw(q, drawing.nodes.size())) {
     const std::string label = time_label(motion.time[i]);
     drawing.poses.push_back(
         {label, drawing.nodes, motion.time[i], draw_shape(system, q[i], label).displacement});
@@ -397,13 +397,13 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
   }
   if (with_forces) warn_of_redundant_constraints(system, result.warnings);
   warn_of_taper(system.model, result.warnings);
-  if (full) warn_of_reduced_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
+  if (full) warn_of_reduced_basis(lost_velocity_fraction(analysis, *full, system), result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyRecorder energy;
   std::optional<solver::LateStrain> late;
   if (with_forces && motion.followed_factor.size() > 0) late.emplace(system);
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {
-    const ModelState state = state_of(system, motion, late, sample, with_forces);
+    const ModelState state = state_at_sample(system, motion, late, sample, with_forces);
     record.add("time_s", motion.time[solver::to_size(sample)]);
     for (solver::Index i = 0; i < values.rows(); ++i) {
       const Output& output = outputs[solver::to_size(i)];

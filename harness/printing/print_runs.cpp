@@ -20,7 +20,7 @@ using results::Numbers;
 
 /// Returns the number of digits required to distinguish the printed limits of a check from each
 /// other and from the judged number.
-int digits_of(const results::Check& check) {
+int digits_of_check_limits(const results::Check& check) {
   constexpr int kLeast = 3, kMost = 12;
   if (!check.tolerance || check.tolerance->symmetric) return kLeast;
   const Number low = check.tolerance->low, high = check.tolerance->high,
@@ -38,7 +38,7 @@ int digits_of(const results::Check& check) {
 std::string tolerance_text(const results::Check& check) {
   if (!check.tolerance) return "";
   const auto& [low, high, is_symmetric] = *check.tolerance;
-  const auto text = [&](const Number& end) { return rounded(*end, digits_of(check)); };
+  const auto text = [&](const Number& end) { return rounded(*end, digits_of_check_limits(check)); };
   if (is_symmetric) return "+-" + text(high);
   if (!low) return high ? "at most " + text(high) : "";
   return high ? "[" + text(low) + ", " + text(high) + "]" : "at least " + text(low);
@@ -46,7 +46,7 @@ std::string tolerance_text(const results::Check& check) {
 
 /// Returns the largest estimated discretization error of a quantity as text [%]; empty if
 /// there is no estimate.
-std::string error_text(const results::Run& run, const std::string& quantity) {
+std::string estimated_error_text(const results::Run& run, const std::string& quantity) {
   const auto* found = run.errors ? run.errors->find(quantity) : nullptr;
   if (found == nullptr) return "";
   double largest = 0;
@@ -67,7 +67,7 @@ void print_quantities(const results::Run& run) {
       const auto [low, high] = std::ranges::minmax(values);
       cells = fmt::format("{:.6g} ... {:.6g}", low, high);
     }
-    table.add({name, values.size(), cells, error_text(run, name)});
+    table.add({name, values.size(), cells, estimated_error_text(run, name)});
   }
   if (!table.empty()) table.print(std::cout, "  ");
 }
@@ -79,7 +79,7 @@ std::vector<Column> columns_of_checks() {
           {"expected", "", 8}, ">difference", ">allowed"};
 }
 
-std::vector<Json> check_cells(const results::Check& check, bool with_index) {
+std::vector<Json> cells_of_check(const results::Check& check, bool with_index) {
   const std::string index = check.index && with_index ? fmt::format("[{}]", *check.index) : "",
                     statistic = check.statistic.empty() ? "" : check.statistic + " ";
   return {results::verdict_text(check),
@@ -87,7 +87,7 @@ std::vector<Json> check_cells(const results::Check& check, bool with_index) {
           statistic + check.quantity + index,
           number_or_null(check.computed),
           number_or_null(check.expected),
-          check.difference ? rounded(*check.difference, digits_of(check)) : "",
+          check.difference ? rounded(*check.difference, digits_of_check_limits(check)) : "",
           tolerance_text(check)};
 }
 
@@ -103,7 +103,7 @@ void print_run(const results::Run& run, bool with_values) {
   std::string messages;
   for (const results::CheckGroup& group : results::group_checks(run)) {
     const results::Check& check = group.worst();
-    const std::vector<Json> cells = check_cells(check, group.checks.size() > 1);
+    const std::vector<Json> cells = cells_of_check(check, group.checks.size() > 1);
     table.add(cells);
     const bool is_printed = check.quantity == "status" && !run.reason.empty();
     if (counts_as_failure(check.verdict) && !check.message.empty() && !is_printed)

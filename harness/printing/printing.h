@@ -12,7 +12,7 @@ namespace trammel::harness {
 /// Return the columns of a table of checks, and the cells of one check: verdict, name, quantity,
 /// numbers and tolerance.
 [[nodiscard]] std::vector<Column> columns_of_checks();
-[[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
+[[nodiscard]] std::vector<Json> cells_of_check(const results::Check& check, bool with_index = true);
 
 /// Prints status, warnings and the worst value of each check of a run. Also prints the values of
 /// the run's quantities if `with_values` is true, if the run has no checks, or if the run has

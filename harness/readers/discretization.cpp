@@ -18,7 +18,7 @@ const Json* find(const Json& document, const std::string& pointer) {
   return document.contains(at) ? &document.at(at) : nullptr;
 }
 
-double angle_of_arc(const Json& model, const Json& member) {
+double arc_angle_of_member(const Json& model, const Json& member) {
   const auto from_center = [&](std::size_t end) {
     const Json& node = model.at("nodes").at(member.at("nodes")[end].get<std::string>());
     const Json& center = member.at("arc_center_m");
@@ -45,7 +45,7 @@ bool set_refined_count(Json& place, solver::Index count, Refine refine) {
   return true;
 }
 
-bool refine_links(const Document& document, Refine refine, Json& patch) {
+bool refine_manipulator(const Document& document, Refine refine, Json& patch) {
   const Json& manipulator = document.value()["model"]["manipulator"];
   const Json& links = manipulator["links"];
   Json& refined_links = patch["manipulator"]["links"];
@@ -96,7 +96,7 @@ solver::Index element_count_of(const Document& document, const std::string& name
   if (model.contains("elements")) return default_element_count(document);
   if (is_bar(model, member)) return 1;
   if (member.contains("arc_center_m")) {
-    const double degrees = angle_of_arc(model, member) * 180 / std::numbers::pi;
+    const double degrees = arc_angle_of_member(model, member) * 180 / std::numbers::pi;
     return std::max(kLeastOfArc, static_cast<solver::Index>(
                                      std::ceil(degrees / kDegreesOfElement * (1 - 1e-12))));
   }
@@ -120,7 +120,7 @@ std::optional<Json> mesh_patch(const Document& document, Refine refine) {
         all = set_refined_count(patch["plates"][name]["divisions"], plate.value("divisions", 1),
                                 refine) &&
               all;
-  if (model.contains("manipulator")) all = refine_links(document, refine, patch) && all;
+  if (model.contains("manipulator")) all = refine_manipulator(document, refine, patch) && all;
   if (patch.empty() || !all) return std::nullopt;
   return Json{{"model", patch}};
 }

@@ -136,14 +136,14 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
   solver::add_pin(model, pin.name, pin.nodes);
 }
 
-void require_force(const JsonView& load) {
+void require_force_in_load(const JsonView& load) {
   if (!load.has("force_N") && !load.has("moment_N_m"))
     throw load.error("the load is empty; expected 'force_N', 'moment_N_m' or both");
 }
 
 /// Adds a support to every node on an edge, except for motions that are already supported.
-void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
-                  solver::Model& model) {
+void support_nodes_on_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
+                           solver::Model& model) {
   if (all.fixed[2])
     throw place.error(
         "an edge cannot support 'rotation', because nodes of plates have no rotation; expected "
@@ -168,7 +168,7 @@ void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Mo
       solver::Support support{name};
       FieldReader::read(place, support.fixed);
       if (of_edges) {
-        support_edge(place, support, edge->second, structure);
+        support_nodes_on_edge(place, support, edge->second, structure);
       } else {
         const char* what = symbols.edge.empty() ? "a node" : "a node or edge";
         support.node = look_up(symbols.node, name, place, what);
@@ -191,7 +191,7 @@ void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model&
     throw place.error("the load is empty; expected 'traction_Pa' or 'normal_Pa'");
   if (on_edge) return read_edge_load(place, symbols, model);
   model.loads.push_back(read_part<solver::NodalLoad>(place, &symbols));
-  require_force(place);
+  require_force_in_load(place);
 }
 
 SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
@@ -232,7 +232,7 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
   joints.follower_loads = read_parts<FollowerLoad>(
       model, "follower_loads", symbols, [](const JsonView& place, const FollowerLoad&) {
         if (!place.has("node")) throw place.error("the follower load requires the key 'node'");
-        require_force(place);
+        require_force_in_load(place);
       });
   return joints;
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Kind = solver::DesignParameter::Kind;
 
-solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
+solver::TimeScheme time_scheme_from_name(const std::string& name, const JsonView& numbers) {
   if (name == "hht") return solver::hht_alpha(numbers.number("alpha"));
   if (name == "generalized-alpha")
     return solver::generalized_alpha(numbers.number("spectral_radius"));
@@ -41,7 +41,7 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
                                                               : solver::average_acceleration();
   const auto [name, numbers] = scheme.entries().front();
   try {
-    return scheme_of(name, numbers);
+    return time_scheme_from_name(name, numbers);
   } catch (const solver::ModelError& error) {
     throw numbers.error(std::string("expected a valid time scheme: ") + error.what());
   }
@@ -147,7 +147,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   return read;
 }
 
-std::string sensitivity_name(Kind kind) {
+std::string frequency_sensitivity_name(Kind kind) {
   switch (kind) {
     case Kind::E:
       return "sensitivity_Hz_per_Pa";
@@ -194,7 +194,7 @@ solver::large_motion::TimeFunction spin_up(double speed, double duration) {
   };
 }
 
-solver::large_motion::TimeFunction rest_to_rest(double travel, double duration) {
+solver::large_motion::TimeFunction rest_to_rest_motion(double travel, double duration) {
   return [travel, duration](double t) {
     if (t >= duration) return std::array<double, 3>{travel, 0, 0};
     const double u = std::max(0.0, t / duration);
@@ -214,7 +214,7 @@ solver::large_motion::TimeFunction read_motion_law(const JsonView& law) {
   if (const auto place = law.find("spin_up"))
     return spin_up(place->number("speed_per_s"), place->number("duration_s"));
   if (const auto place = law.find("rest_to_rest"))
-    return rest_to_rest(place->number("travel"), place->number("duration_s"));
+    return rest_to_rest_motion(place->number("travel"), place->number("duration_s"));
   const JsonView place = law["harmonic"];
   const double a = place.number("amplitude"), w = place.number("angular_speed_rad_s");
   return [a, w](double t) {
@@ -241,7 +241,7 @@ void read_motion_conditions(const JsonView& analysis, const solver::Model& built
   large_motion.mass_damping = analysis.get("mass_damping_per_s", 0.0);
   large_motion.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
   if (const auto ramp = analysis.find("load_ramp_s")) {
-    const solver::large_motion::TimeFunction law = rest_to_rest(1, ramp->get<double>());
+    const solver::large_motion::TimeFunction law = rest_to_rest_motion(1, ramp->get<double>());
     large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
   if (const auto stated = analysis.find("load_history")) {

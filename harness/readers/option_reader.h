@@ -54,7 +54,7 @@ void limit_time_step_count(const JsonView& step, double duration);
 
 /// Returns the name of the quantity for derivatives of natural frequencies with respect to a
 /// parameter. The name contains the unit, as in "sensitivity_Hz_per_m".
-[[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
+[[nodiscard]] std::string frequency_sensitivity_name(solver::DesignParameter::Kind kind);
 
 /// Add prescribed motions ("drives") to a model of large statics or large motion. For large motion,
 /// `read_motion_conditions` adds damping, load history and initial velocities.

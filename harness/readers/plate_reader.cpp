@@ -18,7 +18,7 @@ Ends ends_of(solver::Index a, solver::Index b) {
   return std::minmax(a, b);
 }
 
-const Eigen::Vector2d& position(const solver::Model& structure, solver::Index node) {
+const Eigen::Vector2d& node_position(const solver::Model& structure, solver::Index node) {
   return structure.nodes[solver::to_size(node)].position;
 }
 
@@ -26,10 +26,10 @@ std::string describe_point(const Eigen::Vector2d& point) {
   return "(" + shortest_decimal(point.x()) + ", " + shortest_decimal(point.y()) + ") m";
 }
 
-double twice_area(const solver::Model& structure, const solver::Triangle& triangle) {
-  const Eigen::Vector2d& corner = position(structure, triangle.nodes[0]);
-  return solver::cross(position(structure, triangle.nodes[1]) - corner,
-                       position(structure, triangle.nodes[2]) - corner);
+double twice_triangle_area(const solver::Model& structure, const solver::Triangle& triangle) {
+  const Eigen::Vector2d& corner = node_position(structure, triangle.nodes[0]);
+  return solver::cross(node_position(structure, triangle.nodes[1]) - corner,
+                       node_position(structure, triangle.nodes[2]) - corner);
 }
 
 solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols,
@@ -40,7 +40,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   solver::Triangle triangle;
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
-  const double area = twice_area(structure, triangle);
+  const double area = twice_triangle_area(structure, triangle);
   if (area == 0) throw place.error("expected a triangle with an area (got collinear points)");
   if (area < 0) {  // for a clockwise order, swaps two corners and two sides
     std::swap(triangle.nodes[1], triangle.nodes[2]);
@@ -74,7 +74,7 @@ class Outline {
       const std::optional<solver::Ellipse> curve = read_curve(place);
       for (const auto& entry : place["nodes"].entries()) {
         corners.push_back(symbols.find_node(entry.second));
-        if (curve) check_on_curve(entry.second, *curve, position(structure, corners.back()));
+        if (curve) check_on_curve(entry.second, *curve, node_position(structure, corners.back()));
         if (corners.size() < 2) continue;
         const Ends ends = ends_of(corners.end()[-2], corners.back());
         if (ends.first == ends.second)
@@ -141,7 +141,7 @@ solver::Block read_block(const JsonView& place, const SymbolTable& symbols, cons
   solver::Block block;
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = symbols.find_node(place["corners"][i]);
-    block.corners[i] = position(structure, corners[i]);
+    block.corners[i] = node_position(structure, corners[i]);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d& here = block.corners[i];

@@ -43,12 +43,12 @@ inline std::string default_unit(const Check& check) {
 inline std::string default_role(const Check& check) {
   return check.expectation == Expectation::agrees ? "verification" : "validation";
 }
-inline std::string default_measure(const Check& check) {
+inline std::string default_difference_measure(const Check& check) {
   return check.expected ? "relative" : "bound";
 }
 TRAMMEL_FIELDS(Check, TRAMMEL_REQUIRED(name, quantity), TRAMMEL_OPTIONAL(index, computed, expected),
-               omitted_if_default("measure", &S::measure, default_measure),
-               omitted_if_default("difference", &S::difference, difference_of),
+               omitted_if_default("measure", &S::measure, default_difference_measure),
+               omitted_if_default("difference", &S::difference, difference_of_check),
                TRAMMEL_REQUIRED(tolerance, why, verdict),
                omitted_if_default("unit", &S::unit, default_unit), TRAMMEL_OPTIONAL(expectation),
                omitted_if_default("role", &S::role, default_role),

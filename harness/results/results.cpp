@@ -128,7 +128,7 @@ struct SharedTexts {
   std::vector<Json*> (*holders)(Json& json);
 };
 
-std::vector<Json*> checks_in(Json& json) {
+std::vector<Json*> find_checks(Json& json) {
   std::vector<Json*> checks;
   if (json.contains("runs"))
     for (Json& run : json.at("runs"))
@@ -137,7 +137,7 @@ std::vector<Json*> checks_in(Json& json) {
   return checks;
 }
 
-std::vector<Json*> references_in(Json& json) {
+std::vector<Json*> find_references(Json& json) {
   std::vector<Json*> references;
   if (json.contains("references"))
     for (Json& reference : json.at("references")) references.push_back(&reference);
@@ -147,17 +147,17 @@ std::vector<Json*> references_in(Json& json) {
 const std::array<SharedTexts, 4> kSharedTexts = {{
     {"names",
      {"name", "quantity", "reference", "against_variant", "against_quantity"},
-     "a name for each index used by checks",
-     checks_in},
-    {"reasons", {"why", "title", "message"}, "a text for each index used by checks", checks_in},
+     "one name for each index in the checks",
+     find_checks},
+    {"reasons", {"why", "title", "message"}, "one text for each index in the checks", find_checks},
     {"citations",
      {"citation", "doi", "place"},
-     "a text for each index used by references",
-     references_in},
-    {"notes", {"notes"}, "a note for each index used by references", references_in},
+     "one text for each index in the references",
+     find_references},
+    {"notes", {"notes"}, "one note for each index in the references", find_references},
 }};
 
-void share_texts(Json& json, const SharedTexts& shared) {
+void share_repeated_texts(Json& json, const SharedTexts& shared) {
   Json texts = Json::array();
   std::map<std::string, std::size_t> places;
   for (Json* holder : shared.holders(json))
@@ -213,7 +213,7 @@ void complete_and_validate(Results& results) {
 
 Json to_json(const Results& results, bool summary) {
   Json json = to_json<Results>(results, summary ? Form::summary : Form::text);
-  for (const SharedTexts& shared : kSharedTexts) share_texts(json, shared);
+  for (const SharedTexts& shared : kSharedTexts) share_repeated_texts(json, shared);
   return json;
 }
 
@@ -301,7 +301,7 @@ Number CostStudy::error_of(const CostSetting& setting) const {
   return setting.errors ? setting.errors->get(norm) : Number();
 }
 
-Number difference_of(const Check& check) {
+Number difference_of_check(const Check& check) {
   const double computed = *check.computed, expected = *check.expected;
   if (check.measure == "relative") return (computed - expected) / std::abs(expected);
   if (check.measure == "absolute") return computed - expected;

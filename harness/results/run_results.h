@@ -351,7 +351,7 @@ struct Run {
 };
 
 /// Returns the difference between `computed` and `expected`; missing if the check is a bound.
-[[nodiscard]] Number difference_of(const Check& check);
+[[nodiscard]] Number difference_of_check(const Check& check);
 /// Returns the verdict in words. A known discrepancy that has left its recorded range is a changed
 /// discrepancy.
 [[nodiscard]] std::string verdict_text(const Check& check);

@@ -16,7 +16,7 @@ constexpr double kClear = 10;
 
 /// Returns true if the run was solved, or if the solver reported a singular matrix or an iteration
 /// without convergence.
-bool has_answer(const results::Run& run) {
+bool has_solver_answer(const results::Run& run) {
   using results::Status;
   return run.status == Status::solved || run.status == Status::singular ||
          run.status == Status::not_converged;
@@ -25,7 +25,7 @@ bool has_answer(const results::Run& run) {
 std::string verdict_of(const Entry* entry) {
   if (entry == nullptr) return "missing";
   const bool with_reason =
-      entry->check == nullptr && !has_answer(*entry->run) && !entry->run->reason.empty();
+      entry->check == nullptr && !has_solver_answer(*entry->run) && !entry->run->reason.empty();
   return with_reason ? entry->verdict + ": " + entry->run->reason : entry->verdict;
 }
 
@@ -54,7 +54,7 @@ void add_tight_tolerance(const DiffRow& row, const std::string& configuration,
 
 void compare(const Entries& first, const Configuration& other, Certification& result) {
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
-  const Entries entries = entries_of(other.results);
+  const Entries entries = all_entries(other.results);
   std::vector<double> digits;
   // True if the first configuration contains the run of the current row; true if the run has the
   // same status in both configurations. The rows of checks follow the row of their run.
@@ -64,7 +64,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
     if (row.is_run()) {
       is_known = row.before != nullptr;
       ends_equally = row.is_in_both() && row.before->verdict == row.after->verdict;
-      flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
+      flipped = is_known && (!ends_equally || !has_solver_answer(*row.after->run));
     } else if (is_known && !row.is_in_both()) {  // missing check of runs with equal status
       ++total.missing;
       flipped = ends_equally;
@@ -93,9 +93,9 @@ void compare(const Entries& first, const Configuration& other, Certification& re
 Certification certify(const std::vector<Configuration>& configurations) {
   Certification result;
   if (configurations.empty()) return result;
-  const Entries first = entries_of(configurations.front().results);
+  const Entries first = all_entries(configurations.front().results);
   for (const auto& [name, entry] : first) {
-    if (entry.check == nullptr && !has_answer(*entry.run))
+    if (entry.check == nullptr && !has_solver_answer(*entry.run))
       result.flips.push_back(
           {configurations.front().name, name, verdict_of(&entry), verdict_of(&entry)});
   }

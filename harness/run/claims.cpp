@@ -90,7 +90,7 @@ results::Number metric_of_check(const std::string& metric, CheckResult check_res
   if (!check_result.computed || !check_result.expected) return std::nullopt;
   if (*check_result.expected == 0 && metric != "difference") return std::nullopt;
   check_result.measure = metric == "difference" ? "absolute" : metric;
-  return results::difference_of(check_result);
+  return results::difference_of_check(check_result);
 }
 
 void add_checks(const JsonView& interpretation, const Run& run, Interpretation& found) {
@@ -152,7 +152,7 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
 
 /// Returns the verdicts of the entries. If the rule is joint, each check has one verdict: the check
 /// confirms if all its entries confirm, and contradicts if one entry contradicts.
-Verdicts verdicts_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
+Verdicts verdicts_of_entries(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
   std::map<std::string, std::string> by_check;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const results::ClaimEntry& entry = entries[i];
@@ -168,7 +168,7 @@ Verdicts verdicts_of(const Rule& rule, const std::vector<results::ClaimEntry>& e
 }
 
 std::string verdict_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
-  const Verdicts verdicts = verdicts_of(rule, entries);
+  const Verdicts verdicts = verdicts_of_entries(rule, entries);
   if (verdicts.empty()) return kNotMeasured;
   if (verdicts.size() == 1) return *verdicts.begin();
   return verdicts.count(kConfirms) > 0 ? kConfirmsInPart : kInconclusive;
@@ -234,7 +234,7 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
   return found;
 }
 
-bool uses_case(const JsonView& interpretation, const Case& test_case) {
+bool interpretation_uses_case(const JsonView& interpretation, const Case& test_case) {
   if (interpretation.has("case")) return interpretation.text("case") == test_case.id();
   for (const auto& [name, check] : JsonView(test_case.document).entries("checks")) {
     if (interpretation.has("check") && matches(name, interpretation.text("check"))) return true;
@@ -253,8 +253,8 @@ void require_member(const JsonView& place, const Json& object, const std::string
 }
 
 /// Sets the id of the case that reproduces an item, and validates variant, figure and quantity.
-void complete_counterpart(const JsonView& place, const Catalogue& catalogue,
-                          PaperItem::Counterpart& counterpart) {
+void complete_counterpart_of_item(const JsonView& place, const Catalogue& catalogue,
+                                  PaperItem::Counterpart& counterpart) {
   const Case shown = load_case(catalogue.find_case(counterpart.case_id), catalogue);
   counterpart.case_id = shown.id();
   const Json& json = shown.document.value();
@@ -274,7 +274,7 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
   stated["id"] = id;
   auto item = results::from_json<PaperItem>(stated);
   for (std::size_t i = 0; i < item.shown_by.size(); ++i)
-    complete_counterpart(place["shown_by"][i], catalogue, item.shown_by[i]);
+    complete_counterpart_of_item(place["shown_by"][i], catalogue, item.shown_by[i]);
   for (const auto& entry : place.entries("claims")) require_member(entry.second, claims, "claim");
   if (item.shown_by.empty() && item.claims.empty() && item.reason.empty())
     throw place.error("an item of the paper requires 'shown_by', 'claims' or 'reason'");
@@ -332,7 +332,7 @@ std::vector<Case> cases_used_by(const Document& claim_set, const std::vector<Cas
   std::vector<Case> cases;
   std::ranges::copy_if(catalogue, std::back_inserter(cases), [&](const Case& test_case) {
     return std::ranges::any_of(interpretations, [&](const JsonView& interpretation) {
-      return uses_case(interpretation, test_case);
+      return interpretation_uses_case(interpretation, test_case);
     });
   });
   return cases;

@@ -61,7 +61,7 @@ std::map<std::string, double> series_scales(const Runs& runs) {
 
 /// Returns the relative round-off error of an entry according to a convergence study of the run or
 /// its quantity frequency_roundoff; 0 if unknown.
-double stated_roundoff(const results::Run& run, const std::string& name, std::size_t i) {
+double stated_relative_roundoff(const results::Run& run, const std::string& name, std::size_t i) {
   double stated = 0;
   const auto take = [&](const Numbers& numbers) {
     for (const Number& number : numbers)
@@ -90,7 +90,7 @@ double distance(const Number& a, const Number& b) {
 
 /// Sets `share`, `percent` and `changed` of a compared number from its values and `noise`.
 /// @param scale  largest value of the group of quantities
-void set_change(ComparedValue& value, double scale) {
+void set_change_of_value(ComparedValue& value, double scale) {
   const Number first = value.values.front();
   value.percent.assign(value.values.size(), Number());
   for (std::size_t s = 1; s < value.values.size(); ++s) {
@@ -115,10 +115,10 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
     found.values.push_back((*run->quantity(name))[i]);
     found.errors.push_back(run->error_half_width(name, i));
     const double roundoff =
-        stated_roundoff(*run, name, i) * std::abs(found.values.back().value_or(0));
+        stated_relative_roundoff(*run, name, i) * std::abs(found.values.back().value_or(0));
     found.noise = std::max(found.noise, roundoff);
   }
-  set_change(found, scale);
+  set_change_of_value(found, scale);
   return found;
 }
 
@@ -141,7 +141,7 @@ std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs&
   return found;
 }
 
-void add_numbers(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
+void compare_numbers(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   std::set<std::string> names;
   for (const results::Run* run : runs)
     for (const auto& quantity : run->quantities)
@@ -206,12 +206,12 @@ std::vector<ComparedModes> compare_modes(const Runs& runs) {
                                    : Number());
       found.last.push_back(high - low > 1e-6 * high ? Number(high) : Number());
       found.alike.push_back(there ? Number(match.overlap) : Number());
-      const double stated = stated_roundoff(*runs[s], "frequency_Hz", match.a.front());
+      const double stated = stated_relative_roundoff(*runs[s], "frequency_Hz", match.a.front());
       found.noise = std::max({found.noise, stated * first, kRoundoff * largest});
     }
     if (row != rows.size()) return {};
   }
-  for (ComparedModes& found : rows) set_change(found, largest);
+  for (ComparedModes& found : rows) set_change_of_value(found, largest);
   return rows;
 }
 
@@ -236,12 +236,12 @@ void match_modes_by_shape(const Runs& runs, bool are_variants, ComparedRun& foun
 
 /// Adds remarks about changed statuses of runs, and about at most three changed verdicts of checks
 /// per compared run.
-void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
+void diff_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   Entries first;
-  add_entries(*runs.front(), found.name, first);
+  add_entries_of_run(*runs.front(), found.name, first);
   for (std::size_t s = 1; s < runs.size(); ++s) {
     Entries other;
-    add_entries(*runs[s], found.name, other);
+    add_entries_of_run(*runs[s], found.name, other);
     std::set<std::string> checks;
     for (const DiffRow& row : pair_entries(first, other)) {
       if (!row.is_in_both() || row.before->verdict == row.after->verdict) continue;
@@ -272,9 +272,9 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   ComparedRun found;
   found.name = name;
   found.info = std::move(info);
-  if (are_variants || !are_bit_identical(runs)) add_numbers(runs, labels, found);
+  if (are_variants || !are_bit_identical(runs)) compare_numbers(runs, labels, found);
   match_modes_by_shape(runs, are_variants, found);
-  if (!are_variants) add_verdicts(runs, labels, found);
+  if (!are_variants) diff_verdicts(runs, labels, found);
   found.changed = !found.remarks.empty();
   const auto count = [&](const ComparedValue& value) {
     if (value.changed) found.share = std::max(found.share, value.share);
@@ -287,9 +287,9 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
 }
 
 /// Returns the errors of a run relative to reference values, by the name of the check entry.
-std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
+std::map<std::string, double> errors_of_checks(const std::string& name, const results::Run& run) {
   Entries entries;
-  add_entries(run, name, entries);
+  add_entries_of_run(run, name, entries);
   std::map<std::string, double> errors;
   for (const auto& [entry_name, entry] : entries) {
     const results::Check* check = entry.check;
@@ -456,7 +456,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
       Runs loaded;
       for (const results::Run& run : runs) loaded.push_back(&run);
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        errors[s].merge(errors_of(name, runs[s]));
+        errors[s].merge(errors_of_checks(name, runs[s]));
         comparison.sides[s].cpu_s += runs[s].cost.cpu_s;
         comparison.sides[s].work += runs[s].cost.counted_work();
       }

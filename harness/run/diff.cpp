@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-std::string check_entry_name(const results::Check& check) {
+std::string name_of_entry(const results::Check& check) {
   std::string name = check.name;
   if (!check.quantity.empty()) name += " " + check.quantity;
   if (check.index && check.expected && check.against_variant.empty())
@@ -43,10 +43,10 @@ std::string name_of(const results::Run& run) {
   return run.case_id + ":" + run.variant;
 }
 
-void add_entries(const results::Run& run, const std::string& name, Entries& entries) {
+void add_entries_of_run(const results::Run& run, const std::string& name, Entries& entries) {
   entries.emplace(name, Entry{to_string(run.status), {}, 0, &run, nullptr});
   for (const results::Check& check : run.checks) {
-    const std::string common = name + " " + check_entry_name(check);
+    const std::string common = name + " " + name_of_entry(check);
     std::string unique = common;
     for (int n = 2; entries.count(unique) > 0; ++n) unique = fmt::format("{} #{}", common, n);
     entries.emplace(unique, Entry{to_string(check.verdict), check.computed,
@@ -54,9 +54,9 @@ void add_entries(const results::Run& run, const std::string& name, Entries& entr
   }
 }
 
-Entries entries_of(const results::Results& results) {
+Entries all_entries(const results::Results& results) {
   Entries entries;
-  for (const results::Run& run : results.runs) add_entries(run, name_of(run), entries);
+  for (const results::Run& run : results.runs) add_entries_of_run(run, name_of(run), entries);
   return entries;
 }
 

@@ -31,9 +31,9 @@ using Entries = std::map<std::string, Entry>;
 
 /// Adds entries for a run and for each judged number of the run's checks.
 /// @param name  name of the run, such as "case:variant"
-void add_entries(const results::Run& run, const std::string& name, Entries& entries);
+void add_entries_of_run(const results::Run& run, const std::string& name, Entries& entries);
 /// Returns all entries of the results, which must outlive the entries.
-[[nodiscard]] Entries entries_of(const results::Results& results);
+[[nodiscard]] Entries all_entries(const results::Results& results);
 /// Returns the name of a run: "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 

@@ -142,7 +142,7 @@ std::map<std::string, Course> entry_courses(Database& database) {
                     "entry.name ORDER BY entry.rowid");
 }
 
-void add_call(Database& database, const results::Results& results) {
+void add_call_to_history(Database& database, const results::Results& results) {
   std::size_t checks = 0, failures = 0, work = 0;
   double cpu_s = 0;
   for (const results::Run& run : results.runs) {
@@ -160,7 +160,7 @@ void add_call(Database& database, const results::Results& results) {
 }
 
 /// Returns the state of all entries at a call: for each entry, the last record up to this call.
-Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t call) {
+Entries state_at(const std::map<std::string, Course>& courses, std::int64_t call) {
   Entries entries;
   for (const auto& [name, course] : courses)
     for (const auto& [since, entry] : course)
@@ -176,7 +176,7 @@ void write_entries(Database& database, const results::Results& results, std::int
     values.emplace_back(name);
     database.query(sql, values);
   };
-  const Entries before = entries_at(entry_courses(database), call), now = entries_of(results);
+  const Entries before = state_at(entry_courses(database), call), now = all_entries(results);
   for (const DiffRow& row : pair_entries(before, now)) {
     const std::string run = row.name.substr(0, row.name.find(' '));
     if (now.count(run) == 0 || row.name == run) continue;
@@ -194,7 +194,7 @@ void write_entries(Database& database, const results::Results& results, std::int
              {run.cost.cpu_s, run.cost.counted_work()});
 }
 
-std::vector<HistoryCall> calls_of(Database& database) {
+std::vector<HistoryCall> calls_of_history(Database& database) {
   std::vector<HistoryCall> calls;
   for (const Row& row : database.query("SELECT id, date, commit_id, machine, runs, checks, "
                                        "failures, work, cpu_s FROM call ORDER BY id"))
@@ -208,11 +208,11 @@ std::vector<HistoryCall> calls_of(Database& database) {
 
 /// Returns the changes since a call. Each change has the date and the commit of the first call that
 /// shows the change.
-std::vector<HistoryChange> changes_since(std::int64_t since,
-                                         const std::map<std::string, Course>& courses,
-                                         const std::vector<HistoryCall>& calls) {
+std::vector<HistoryChange> changes_since_call(std::int64_t since,
+                                              const std::map<std::string, Course>& courses,
+                                              const std::vector<HistoryCall>& calls) {
   std::vector<HistoryChange> changes;
-  const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
+  const Entries before = state_at(courses, since), now = state_at(courses, calls.back().id);
   for (const DiffRow& row : pair_entries(before, now)) {
     if (!row.is_in_both() || !row.after->differs(*row.before)) continue;
     std::int64_t first = 0;  // first of the latest consecutive calls with a change; 0: none
@@ -228,7 +228,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
   return changes;
 }
 
-std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses) {
+std::vector<HistoryDrift> drifts_of_entries(const std::map<std::string, Course>& courses) {
   constexpr std::size_t kLeast = 3;      // minimum number of steps
   constexpr double kLargestStep = 0.01;  // largest relative step of a slow drift
   std::vector<HistoryDrift> drifts;
@@ -261,7 +261,7 @@ void append_history(const fs::path& file, const results::Results& results) {
   Database database(file, true);
   database.execute("BEGIN IMMEDIATE");
   if (!database.has_tables()) database.execute(kTables);
-  add_call(database, results);
+  add_call_to_history(database, results);
   write_entries(database, results, database.last_id());
   database.execute("COMMIT");
 }
@@ -271,18 +271,18 @@ History read_history(const fs::path& file) {
   if (!database.has_tables())
     throw InputError(file.string() + ": the file is empty; expected a history written by trammel");
   History history;
-  history.calls = calls_of(database);
+  history.calls = calls_of_history(database);
   for (std::size_t i = 0; i + 1 < history.calls.size(); ++i)
     if (history.calls[i].has_passed()) history.since = history.calls[i].id;
   const auto courses = entry_courses(database);
   if (history.since > 0) {
-    history.changes = changes_since(history.since, courses, history.calls);
+    history.changes = changes_since_call(history.since, courses, history.calls);
     const auto work = courses_of(database,
                                  "SELECT text, call, '', work, 0 FROM cost JOIN name ON name.id = "
                                  "cost.name ORDER BY cost.rowid");
-    history.work = changes_since(history.since, work, history.calls);
+    history.work = changes_since_call(history.since, work, history.calls);
   }
-  history.drifts = drifts_of(courses);
+  history.drifts = drifts_of_entries(courses);
   return history;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using results::Status;
 
-Status status_of(solver::Status status) {
+Status status_from_solver(solver::Status status) {
   switch (status) {
     case solver::Status::solved:
       return Status::solved;
@@ -52,7 +52,7 @@ void add_case_inputs(const Document& document, const JsonPointer& place, results
                          is_own ? "" : std::filesystem::path(file).filename().string()});
 }
 
-results::CaseInfo case_info(const Case& given) {
+results::CaseInfo create_case_info(const Case& given) {
   const Json& stated = given.document.value();
   Json json = {{"title", given.title()},
                {"variants", Json::object()},
@@ -71,7 +71,7 @@ results::CaseInfo case_info(const Case& given) {
   return info;
 }
 
-results::Reference reference(const std::string& id, const CitedReference& cited) {
+results::Reference create_result_reference(const std::string& id, const CitedReference& cited) {
   const references::Reference& source = cited.reference;
   results::Reference out;
   out.id = id;
@@ -94,7 +94,7 @@ results::Reference reference(const std::string& id, const CitedReference& cited)
 }  // namespace
 
 void record_result(AnalysisResult result, Run& run) {
-  run.status = status_of(result.outcome.status);
+  run.status = status_from_solver(result.outcome.status);
   run.reason = std::move(result.outcome.reason);
   for (const solver::Residual kind : solver::kResiduals)
     if (result.evidence.has(kind))
@@ -121,9 +121,9 @@ results::Results collect_results(std::vector<Run> runs, const std::vector<Case>&
   out.environment = results::from_json<results::Environment>(build_and_machine_info());
   out.environment.stored_runs =
       static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
-  std::ranges::transform(cases, std::back_inserter(out.cases), case_info);
+  std::ranges::transform(cases, std::back_inserter(out.cases), create_case_info);
   for (const auto& [id, cited] : references.requested_references())
-    out.references.push_back(reference(id, cited));
+    out.references.push_back(create_result_reference(id, cited));
   out.uncertainty_coverage = summarize_numerical_uncertainty(runs);
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {

@@ -47,7 +47,7 @@ bool run_lacks_answer(const Run& run) {
          run.status == Status::timed_out;
 }
 
-void mark_failed(Run& run, const std::string& reason, Fault fault) {
+void mark_run_as_failed(Run& run, const std::string& reason, Fault fault) {
   run.status = Status::error;
   run.reason = one_line(reason);
   run.fault = fault;
@@ -55,15 +55,15 @@ void mark_failed(Run& run, const std::string& reason, Fault fault) {
 
 /// Executes `work` and records an exception as the failure of the run.
 template <class Work>
-void run_guarded(Run& run, const Work& work) {
+void catch_errors_of_run(Run& run, const Work& work) {
   try {
     work();
   } catch (const InputError& error) {
-    mark_failed(run, error.what(), Fault::input);
+    mark_run_as_failed(run, error.what(), Fault::input);
   } catch (const std::bad_alloc&) {
     throw;  // the parent process reports lack of memory
   } catch (const std::exception& error) {
-    mark_failed(run, std::string("internal error: ") + error.what(), Fault::internal);
+    mark_run_as_failed(run, std::string("internal error: ") + error.what(), Fault::internal);
   }
 }
 
@@ -73,7 +73,7 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
   task.requested = requested;
   task.run.case_id = owner.id();
   task.run.variant = variant;
-  run_guarded(task.run, [&] {
+  catch_errors_of_run(task.run, [&] {
     task.document = patched(owner, variant);
     task.input_warnings = unit_warnings(task.document);
     task.checks = read_checks(task.document, variant, owner.variants());
@@ -113,7 +113,7 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
 
 /// Computes the solution of a task, and estimates its discretization errors if requested.
 void compute_with_errors(Task& task, const References& references) {
-  if (task.requested && task.accuracy.accuracy > 0 && can_be_refined(task.document)) {
+  if (task.requested && task.accuracy.accuracy > 0 && has_mesh_or_time_steps(task.document)) {
     AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
     if (!search.reached) task.run.warnings = {"accuracy not reached: " + search.errors.reason};
     task.run.errors = std::move(search.errors);
@@ -128,7 +128,7 @@ void compute_with_errors(Task& task, const References& references) {
 
 void compute(Task& task, const References& references) {
   const Stopwatch watch;
-  run_guarded(task.run, [&] {
+  catch_errors_of_run(task.run, [&] {
     compute_with_errors(task, references);
     if (task.requested && task.studies)
       task.run.sweeps = run_sweep_levels(task.document, references);
@@ -142,7 +142,7 @@ void compare_for_validation(Task& task, const References& references) {
                       task.document.value().contains("uncertainty");
   if (!wanted) return;
   const Stopwatch watch;
-  run_guarded(task.run, [&] {
+  catch_errors_of_run(task.run, [&] {
     task.run.uncertainty = evaluate_validation_uncertainty(
         task.document, task.run.quantities, task.checks, task.run.errors.value(), references);
     if (!task.errors && task.accuracy.accuracy == 0) task.run.errors.reset();
@@ -150,9 +150,9 @@ void compare_for_validation(Task& task, const References& references) {
   if (task.run.uncertainty) task.run.cost.uncertainty_wall_s = watch.wall_s();
 }
 
-std::string answer_of_task(Task task, const RunOptions& options) {
+std::string compute_answer(Task task, const RunOptions& options) {
   if (options.solver.compute) {
-    run_guarded(task.run, [&] {
+    catch_errors_of_run(task.run, [&] {
       options.solver.compute(*task.owner, task.run.variant, task.document, task.checks,
                              task.requested, task.run);
     });
@@ -165,11 +165,11 @@ std::string answer_of_task(Task task, const RunOptions& options) {
   if (options.tracked == TrackedQuantities::named)
     for (Sweep& sweep : task.run.sweeps) drop_other_values(sweep, task.document, task.checks);
   if (!task.run.cost.timings.empty()) task.run.machine = machine_name();
-  return to_bytes(task.run);
+  return serialize(task.run);
 }
 
 /// Returns the limit of the processor time of a case [s].
-unsigned time_limit_s(const Document& document) {
+unsigned processor_time_limit_s(const Document& document) {
   constexpr double kDefault = 120, kLongest = 1e7;
   return static_cast<unsigned>(
       std::ceil(std::min(document.value().value("timeout_s", kDefault), kLongest)));
@@ -178,11 +178,11 @@ unsigned time_limit_s(const Document& document) {
 void record_ended_process(Task& task, const ProcessOutcome& outcome, const RunOptions& options) {
   using Termination = ProcessOutcome::Termination;
   if (options.solver.compute && outcome.termination != Termination::answered)
-    return mark_failed(task.run, "no answer: " + outcome.text, Fault::none);
+    return mark_run_as_failed(task.run, "no answer: " + outcome.text, Fault::none);
   const auto expected = [&](const std::string& pointer, const std::string& what) {
     const std::string found = " (" + task.run.variant + ": " + outcome.text + ")";
-    mark_failed(task.run, task.document.error(pointer, "expected " + what + found).what(),
-                Fault::input);
+    mark_run_as_failed(task.run, task.document.error(pointer, "expected " + what + found).what(),
+                       Fault::input);
   };
   switch (outcome.termination) {
     case Termination::answered:
@@ -199,7 +199,7 @@ void record_ended_process(Task& task, const ProcessOutcome& outcome, const RunOp
       break;
     case Termination::disk_full:  // only programs of other solvers have this limit
     case Termination::crashed:
-      mark_failed(
+      mark_run_as_failed(
           task.run,
           "internal error: " + task.run.case_id + ":" + task.run.variant + ": " + outcome.text,
           Fault::internal);
@@ -234,24 +234,24 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   if (!options.store.empty()) prepare_store(options.store);
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
-    work.push_back(
-        {[&options, run = task] { return answer_of_task(*run, options); },
-         options.solver.compute ? options.solver.time_limit_s : time_limit_s(task->document)});
+    work.push_back({[&options, run = task] { return compute_answer(*run, options); },
+                    options.solver.compute ? options.solver.time_limit_s
+                                           : processor_time_limit_s(task->document)});
   std::size_t done = tasks.size() - work.size();
   const auto show = [&] {
     if (options.progress) options.progress(done, tasks.size());
   };
-  return run_in_processes(work, {options.jobs, options.memory_bytes, show},
-                          [&](std::size_t i, const ProcessOutcome& outcome) {
-                            const auto& [task, file] = open[i];
-                            record_ended_process(*task, outcome, options);
-                            if (!file.empty() && !run_lacks_answer(task->run)) {
-                              write_file(file, outcome.text);
-                              task->run.stored = file.filename().string();
-                            }
-                            ++done;
-                            show();
-                          });
+  return run_in_worker_processes(work, {options.jobs, options.memory_bytes, show},
+                                 [&](std::size_t i, const ProcessOutcome& outcome) {
+                                   const auto& [task, file] = open[i];
+                                   record_ended_process(*task, outcome, options);
+                                   if (!file.empty() && !run_lacks_answer(task->run)) {
+                                     write_file(file, outcome.text);
+                                     task->run.stored = file.filename().string();
+                                   }
+                                   ++done;
+                                   show();
+                                 });
 }
 
 /// Adds a check of the status of the run, unless the expected and actual status are "solved". If
@@ -346,11 +346,11 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
 }
 
 /// Requests estimates of discretization errors according to the options and the case.
-void request_errors(Task& task, const RunOptions& options) {
+void request_error_estimates(Task& task, const RunOptions& options) {
   if (options.solver.compute || !task.requested || task.run.status == Status::error) return;
   const Json& json = task.document.value();
   task.accuracy = {options.accuracy > 0 ? options.accuracy : json.value("accuracy", 0.0),
-                   options.quantities, time_limit_s(task.document) * 1.0};
+                   options.quantities, processor_time_limit_s(task.document) * 1.0};
   const bool is_own = !is_in_catalogue(task.owner->file);
   task.errors =
       options.errors == ErrorWish::all || (options.errors == ErrorWish::own_cases && is_own);
@@ -363,7 +363,7 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   std::vector<Task> tasks = prepare_all(cases, options.variant);
   for (Task& task : tasks) {
     task.studies = options.studies;
-    request_errors(task, options);
+    request_error_estimates(task, options);
   }
   const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
@@ -375,7 +375,7 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
       std::ranges::move(error_warnings(*task.run.errors, options.warn_above),
                         std::back_inserter(task.run.warnings));
     if (task.requested)
-      run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
+      catch_errors_of_run(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
   std::vector<Run> runs;
   for (Task& task : tasks)
@@ -394,7 +394,7 @@ std::vector<Run> run_with_progress(const std::vector<Case>& cases, const Referen
 
 ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, const Shard& shard) {
   std::vector<Task> tasks = prepare_all(cases, options.variant);
-  for (Task& task : tasks) request_errors(task, options);
+  for (Task& task : tasks) request_error_estimates(task, options);
   std::vector<std::string> names;
   for (const Task& task : tasks)
     names.push_back(task.run.case_id + ":" + task.run.variant +

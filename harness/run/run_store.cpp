@@ -60,23 +60,23 @@ std::string uncompress_bytes(const std::string& bytes) {
 }
 
 template <class Kept>
-std::string stored_bytes(const Kept& kept) {
+std::string bytes_to_store(const Kept& kept) {
   std::string bytes;
   Json::to_cbor(results::to_json(kept, results::Form::store), bytes);
   return compress_bytes(bytes);
 }
 
 template <class Kept>
-Kept stored_from(const std::string& bytes) {
+Kept parse_stored_bytes(const std::string& bytes) {
   return results::from_json<Kept>(parse_cbor(uncompress_bytes(bytes)));
 }
 
-bool are_unchanged(const std::map<std::string, std::string>& hashes, const References& references) {
+bool hashes_agree(const std::map<std::string, std::string>& hashes, const References& references) {
   return std::ranges::all_of(
       hashes, [&](const auto& item) { return references.hash(item.first) == item.second; });
 }
 
-void mark_used(const std::filesystem::path& file) {
+void mark_file_as_used(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
 }
@@ -94,9 +94,9 @@ Kept find_or_compute(const std::filesystem::path& store, const std::string& name
   const std::filesystem::path file = store / name;
   try {
     if (resume) {
-      Kept kept = stored_from<Kept>(read_text(file));
+      Kept kept = parse_stored_bytes<Kept>(read_text(file));
       if (is_valid(kept)) {
-        mark_used(file);
+        mark_file_as_used(file);
         return kept;
       }
     }
@@ -104,7 +104,7 @@ Kept find_or_compute(const std::filesystem::path& store, const std::string& name
   }
   Kept computed = compute();
   std::filesystem::create_directories(store);
-  if (is_valid(computed)) write_file(file, stored_bytes(computed));
+  if (is_valid(computed)) write_file(file, bytes_to_store(computed));
   return computed;
 }
 
@@ -113,7 +113,7 @@ std::string name_of(const std::string& all_that_decides) {
   return content_hash(program + all_that_decides) + ".cbor";
 }
 
-void add_setting(const Setting& setting, Json& all) {
+void add_setting_to_json(const Setting& setting, Json& all) {
   all.push_back({setting.curve, setting.curve_title, setting.title, setting.document.value()});
   if (setting.value) all.push_back(*setting.value);
   for (const ObservedQuantity& one : setting.observed)
@@ -127,8 +127,8 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
               study.family,       study.title,    study.description, study.reference_description};
   for (const StudyOutput& output : study.outputs)
     all.push_back({output.scale.kind, output.scale.number, output.title, output.scale_description});
-  for (const Setting& setting : study.settings) add_setting(setting, all);
-  if (study.reference_solution) add_setting(*study.reference_solution, all);
+  for (const Setting& setting : study.settings) add_setting_to_json(setting, all);
+  if (study.reference_solution) add_setting_to_json(*study.reference_solution, all);
   return name_of(text_of_json(all));
 }
 
@@ -154,25 +154,25 @@ std::string run_file_name(const Document& document, bool requested,
                  text_of_json(document.value()));
 }
 
-std::string to_bytes(const Run& run) {
-  return stored_bytes(run);
+std::string serialize(const Run& run) {
+  return bytes_to_store(run);
 }
 Run parse_run(const std::string& bytes) {
-  return stored_from<Run>(bytes);
+  return parse_stored_bytes<Run>(bytes);
 }
 
-std::string to_bytes(const std::vector<results::Convergence>& studies) {
-  return stored_bytes(studies);
+std::string serialize(const std::vector<results::Convergence>& studies) {
+  return bytes_to_store(studies);
 }
 std::vector<results::Convergence> parse_convergence(const std::string& bytes) {
-  return stored_from<std::vector<results::Convergence>>(bytes);
+  return parse_stored_bytes<std::vector<results::Convergence>>(bytes);
 }
 
 bool load_stored_run(const std::filesystem::path& file, Run& run, bool any_machine,
                      const References& references) {
   try {
     Run found = parse_run(read_text(file));
-    if (!are_unchanged(found.references, references)) return false;
+    if (!hashes_agree(found.references, references)) return false;
     const bool timed = !any_machine && !found.cost.timings.empty();
     if (timed && found.machine != machine_name()) return false;
     found.case_id = run.case_id;
@@ -181,7 +181,7 @@ bool load_stored_run(const std::filesystem::path& file, Run& run, bool any_machi
   } catch (const std::exception&) {
     return false;  // truncated file, or another version
   }
-  mark_used(file);
+  mark_file_as_used(file);
   return true;
 }
 
@@ -190,14 +190,14 @@ results::CostStudy cached_cost_study(const CostStudy& study, const CostOptions& 
                                      const std::filesystem::path& store, bool resume) {
   return find_or_compute<results::CostStudy>(
       store, name_of(study, options.timing), resume,
-      [&](const results::CostStudy& kept) { return are_unchanged(kept.references, references); },
+      [&](const results::CostStudy& kept) { return hashes_agree(kept.references, references); },
       [&] { return measure_study(study, options, references); });
 }
 
 SandboxedRun cached_solution(const Setting& setting, int time_limit_s, const References& references,
                              const std::filesystem::path& store, bool resume) {
   Json all = Json::array({"setting"});
-  add_setting(setting, all);
+  add_setting_to_json(setting, all);
   return find_or_compute<SandboxedRun>(
       store, name_of(text_of_json(all)), resume,
       [](const SandboxedRun& run) { return run.termination == SandboxedRun::Termination::solved; },

@@ -23,11 +23,11 @@ namespace trammel::harness {
                                         const std::string& solver_hash = "");
 
 /// Serializes a run for a file of the store, and for the transfer from the process of the run.
-[[nodiscard]] std::string to_bytes(const Run& run);
-/// @throws std::exception  if the bytes were not written by `to_bytes`.
+[[nodiscard]] std::string serialize(const Run& run);
+/// @throws std::exception  if the bytes were not written by `serialize_run`.
 [[nodiscard]] Run parse_run(const std::string& bytes);
 /// Serializes the convergence studies of a run, which are evaluated after the run is stored.
-[[nodiscard]] std::string to_bytes(const std::vector<results::Convergence>& studies);
+[[nodiscard]] std::string serialize(const std::vector<results::Convergence>& studies);
 [[nodiscard]] std::vector<results::Convergence> parse_convergence(const std::string& bytes);
 
 /// @returns whether the file contains a reusable run. The run must be complete and use the current

@@ -27,7 +27,7 @@ results::Number as_number(double value) {
 
 /// Returns the final folder of a report. The temporary folder, in which the report is written
 /// first, is a subfolder of the final folder.
-fs::path place_of(const fs::path& folder) {
+fs::path final_report_folder(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
 }
 
@@ -36,10 +36,11 @@ fs::path place_of(const fs::path& folder) {
 fs::path write_results(const results::Results& results, const fs::path& folder) {
   for (const Run& run : results.runs)
     if (!run.stored.empty() && !run.sweeps.empty())
-      write_file(convergence_file(fs::path(results.store) / run.stored), to_bytes(run.convergence));
+      write_file(convergence_file(fs::path(results.store) / run.stored),
+                 serialize(run.convergence));
   Json json = to_json(results, true);
   if (!results.store.empty())
-    json["store"] = fs::proximate(results.store, place_of(folder)).string();
+    json["store"] = fs::proximate(results.store, final_report_folder(folder)).string();
   fs::path file = folder / "results.json";
   write_file(file, format_json(json, kLineDepth));
   return file;

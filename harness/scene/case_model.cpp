@@ -21,7 +21,7 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 }
 
 /// Returns true if the text contains the label of a part as a complete word.
-bool mentions(const std::string& text, const std::string& label) {
+bool mentions_part_label(const std::string& text, const std::string& label) {
   for (auto at = text.find(label); at != std::string::npos; at = text.find(label, at + 1)) {
     const std::size_t end = at + label.size();
     if (end == text.size() || std::strchr(" ,:;)", text[end]) != nullptr) return true;
@@ -157,7 +157,7 @@ InputError to_input_error(const Document& document, const solver::ModelError& er
                                     {"spring", model.entries("springs")},
                                     {"node", model.entries("nodes")}}) {
     for (const auto& [name, part] : parts)
-      if (mentions(text, solver::part_label(kind, name, 0))) return part.error(message);
+      if (mentions_part_label(text, solver::part_label(kind, name, 0))) return part.error(message);
   }
   if (text.rfind("drive ", 0) == 0 && analysis.has("track"))
     return analysis["track"].error(message);

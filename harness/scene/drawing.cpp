@@ -60,7 +60,7 @@ void draw_members(const solver::System& system, const DrawnNodes& drawn, Drawing
     int before = drawn.index_of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
       drawing.nodes.push_back(
-          point_of(start + span * static_cast<double>(k) / static_cast<double>(count)));
+          point_at_position(start + span * static_cast<double>(k) / static_cast<double>(count)));
       const auto last = static_cast<int>(drawing.nodes.size() - 1);
       drawing.members.push_back({before, last});
       before = last;
@@ -181,7 +181,7 @@ std::optional<Drawing> draw_model(const solver::System& system, bool is_manipula
   const DrawnNodes drawn = drawn_nodes(system);
   if (drawn.mesh.size() > kMaxDrawnNodes) return std::nullopt;
   for (const std::size_t node : drawn.mesh)
-    drawing.nodes.push_back(point_of(system.mesh.positions[node]));
+    drawing.nodes.push_back(point_at_position(system.mesh.positions[node]));
   draw_members(system, drawn, drawing);
   draw_model_parts(system.model, is_manipulator, drawn, drawing);
   draw_forces(system, drawn, drawing);
@@ -200,7 +200,7 @@ results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
     for (std::size_t k = 1; k < count; ++k)
-      shape.displacement.push_back(point_of(displacement_at_fraction(
+      shape.displacement.push_back(point_at_position(displacement_at_fraction(
           element, u, static_cast<double>(k) / static_cast<double>(count))));
   }
   return shape;
@@ -214,7 +214,7 @@ std::string time_label(double time) {
   return rounded(time, 4) + " s";
 }
 
-std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q, std::size_t nodes) {
+std::vector<std::size_t> samples_to_draw(const std::vector<Eigen::VectorXd>& q, std::size_t nodes) {
   const std::size_t most = max_drawn_times(nodes);
   std::vector<std::size_t> samples;
   for (std::size_t count = q.size(); count > 1; count = (count + 1) / 2) {
@@ -235,7 +235,7 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
     const solver::Posture posture = solver::inverse_kinematics(geometry, pose);
     std::vector<results::Point> nodes;
     for (const auto& joints : {geometry.base, posture.B, posture.C})
-      for (const Eigen::Vector2d& joint : joints) nodes.push_back(point_of(joint));
+      for (const Eigen::Vector2d& joint : joints) nodes.push_back(point_at_position(joint));
     nodes.emplace_back(pose.x, pose.y);
     return nodes;
   };
@@ -269,12 +269,12 @@ std::vector<results::Point> places(const solver::large_motion::GeometricallyExac
   const Eigen::MatrixX3d motion = node_motion(system, q);
   std::vector<results::Point> nodes;
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    nodes.push_back(point_of(model.nodes[i].position +
-                             motion.row(static_cast<solver::Index>(i)).head<2>().transpose()));
+    nodes.push_back(point_at_position(
+        model.nodes[i].position + motion.row(static_cast<solver::Index>(i)).head<2>().transpose()));
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<solver::Index>(m));
     for (solver::Index i = 1; i + 1 < line.rows(); ++i)
-      nodes.push_back(point_of(line.row(i).transpose()));
+      nodes.push_back(point_at_position(line.row(i).transpose()));
   }
   return nodes;
 }

@@ -14,7 +14,7 @@ namespace trammel::harness {
 
 using results::Drawing;
 
-[[nodiscard]] inline results::Point point_of(const Eigen::Vector2d& position) {
+[[nodiscard]] inline results::Point point_at_position(const Eigen::Vector2d& position) {
   return {position.x(), position.y()};
 }
 
@@ -37,8 +37,8 @@ void draw_model_parts(const solver::Model& model, bool is_manipulator, Drawing& 
 /// samples are too few to show the vibrations of the full motion, they cover only its beginning.
 /// @param q      coordinates of each sample
 /// @param nodes  number of nodes of the drawing
-[[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,
-                                                     std::size_t nodes);
+[[nodiscard]] std::vector<std::size_t> samples_to_draw(const std::vector<Eigen::VectorXd>& q,
+                                                       std::size_t nodes);
 
 /// Returns the maximum number of times at which a motion is drawn, for a drawing with this number
 /// of nodes.

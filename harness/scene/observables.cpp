@@ -65,7 +65,7 @@ double reaction_moment(const Model& model, const State& state, const ModelPart& 
   return part.items.size() == 1 ? reaction<2>(model, state, part) : kNaN;
 }
 
-double reaction_size(const Model& model, const State& state, const ModelPart& part) {
+double reaction_magnitude(const Model& model, const State& state, const ModelPart& part) {
   return std::hypot(reaction<0>(model, state, part), reaction<1>(model, state, part));
 }
 
@@ -104,7 +104,7 @@ constexpr auto kObservables = std::to_array<Observable>({
     {"stress_Pa", Of::member, entry<&State::member_stress, 0>, true, true},
     {"reaction_x_N", Of::support, reaction<0>, true, true},
     {"reaction_y_N", Of::support, reaction<1>, true, true},
-    {"reaction_N", Of::support, reaction_size, true, true},
+    {"reaction_N", Of::support, reaction_magnitude, true, true},
     {"reaction_moment_N_m", Of::support, reaction_moment, true, true},
     {"stress_xx_Pa", Of::node, entry<&State::node_stress, 0>, true, true},
     {"stress_yy_Pa", Of::node, entry<&State::node_stress, 1>, true, true},
@@ -114,7 +114,7 @@ constexpr auto kObservables = std::to_array<Observable>({
 
 /// Returns all named parts of one kind, such as nodes. Nodes and members without a name, such as
 /// those inside a plate or a chain of members, are omitted.
-std::vector<ModelPart> parts_of(const Model& model, Of of) {
+std::vector<ModelPart> named_parts_of_model(const Model& model, Of of) {
   std::vector<ModelPart> parts;
   const auto add_all = [&](const auto& all, Index end, const char* suffix) {
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -143,7 +143,7 @@ std::vector<ModelPart> parts_of(const Model& model, Of of) {
 
 ModelPart find_part(const JsonView& place, const Model& model, Of of, const std::string& name) {
   std::vector<std::string> all;
-  for (ModelPart& part : parts_of(model, of)) {
+  for (ModelPart& part : named_parts_of_model(model, of)) {
     if (part.name == name) return std::move(part);
     all.push_back(part.name);
   }
@@ -152,7 +152,7 @@ ModelPart find_part(const JsonView& place, const Model& model, Of of, const std:
 }
 
 /// Returns the observables that an analysis records.
-std::vector<const Observable*> observables_of(const std::string& analysis) {
+std::vector<const Observable*> observables_of_analysis(const std::string& analysis) {
   std::vector<const Observable*> rows;
   for (const Observable& one : kObservables)
     if (results::find_quantity_definition(one.name, analysis) != nullptr) rows.push_back(&one);
@@ -166,7 +166,7 @@ Output read_output(const JsonView& place, const Model& model) {
   const std::string head = output.name.substr(0, colon);
   std::string part = colon == std::string::npos ? "" : output.name.substr(colon + 1);
   std::vector<std::string> heads;
-  for (const Observable* one : observables_of("transient")) {
+  for (const Observable* one : observables_of_analysis("transient")) {
     if (head == one->name) output.observable = one;
     heads.emplace_back(one->name);
   }
@@ -204,9 +204,9 @@ StateRecorder::StateRecorder(const solver::Model& model, const std::string& anal
     const Index item = part.items.empty() ? -1 : part.items.front();
     return !contains(*nodes, of == Of::support ? model.supports[solver::to_size(item)].node : item);
   };
-  for (const Observable* one : observables_of(analysis)) {
+  for (const Observable* one : observables_of_analysis(analysis)) {
     if (contains(without, one->name)) continue;
-    rows_.push_back({one, parts_of(model, one->of)});
+    rows_.push_back({one, named_parts_of_model(model, one->of)});
     if (nodes != nullptr) std::erase_if(rows_.back().parts, std::bind_front(is_left_out, one->of));
   }
 }

@@ -15,19 +15,20 @@ namespace {
 void require_joints(const JsonView& place, const solver::ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (design.active[i].kind != solver::ActiveKind::locked)
-      throw place.error("tracking requires 'locked' active joints (got another type)");
+      throw place.error("'tracking' of a path requires 'locked' active joints (got another type)");
     if (design.elbow[i].kind != solver::ElbowKind::hinged ||
         design.platform_joint[i].kind != solver::PlatformJointKind::hinged) {
-      throw place.error("tracking requires hinged elbow and platform joints (got another type)");
+      throw place.error(
+          "'tracking' of a path requires hinged elbow and platform joints (got another type)");
     }
   }
 }
 
 /// Returns the motion of the manipulator with rigid links, and the actuator torques that balance
 /// inertia and loads. Before and after the path, it returns the state at the nearest end.
-solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& rigid,
-                                                const CaseModel& case_model,
-                                                const std::function<double(double)>& load_history) {
+solver::large_motion::RigidMotion rigid_motion_with_torques(
+    const solver::RigidManipulator& rigid, const CaseModel& case_model,
+    const std::function<double(double)>& load_history) {
   return solver::large_motion::cached_motion([rigid, case_model, load_history](double t) {
     const auto [first, last] = solver::time_span(*case_model.path);
     const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
@@ -38,7 +39,7 @@ solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& 
 }
 
 /// Returns the initial velocities of the same manipulator with rigid links (its rigid twin).
-solver::large_motion::PrescribedVelocities tracking_start(
+solver::large_motion::PrescribedVelocities initial_tracking_velocities(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
   const solver::InverseDynamics twin =
@@ -56,14 +57,14 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
                   const solver::Model& model,
                   solver::large_motion::LargeMotionModel& large_motion) {
   if (!case_model.manipulator || !case_model.path)
-    throw place.error("tracking requires a manipulator with 'trajectory'");
+    throw place.error("'tracking' of a path requires a manipulator with 'trajectory'");
   require_joints(place, *case_model.manipulator);
   const bool torques = tracking == Tracking::torques;
   const solver::RigidManipulator rigid = torques
                                              ? read_rigid_manipulator(place, case_model)
                                              : solver::rigid_manipulator(*case_model.manipulator);
   const solver::large_motion::RigidMotion motion =
-      torques ? loaded_motion(rigid, case_model, large_motion.load_history)
+      torques ? rigid_motion_with_torques(rigid, case_model, large_motion.load_history)
               : solver::large_motion::cached_motion([rigid, path = *case_model.path](double t) {
                   return solver::inverse_dynamics(rigid, solver::at(path, t));
                 });
@@ -84,8 +85,8 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
   }
 }
 
-void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
-                   const solver::large_motion::State& state, Recorder& record) {
+void record_actuator_drives(const solver::large_motion::GeometricallyExactSystem& system,
+                            const solver::large_motion::State& state, Recorder& record) {
   const std::vector<solver::large_motion::Drive>& drives = system.large_motion().drives;
   for (std::size_t i = 0; i < drives.size(); ++i)
     record.add(drives[i].direction == 2 ? "drive_torque_N_m" : "drive_force_N", drives[i].name,
@@ -109,13 +110,13 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     model.supports[solver::to_size(torque.node)].fixed[2] = false;
 }
 
-solver::large_motion::IntegrationSummary integrate_tracked(
+solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
     const solver::TransientOptions& options, const solver::large_motion::Observer& observe) {
   solver::large_motion::State state = system.reference_state();
   solver::large_motion::IntegrationSummary summary;
   summary.outcome =
-      make_consistent(system, state, tracking_start(case_model, system), options.step);
+      make_consistent(system, state, initial_tracking_velocities(case_model, system), options.step);
   if (!summary.outcome.solved()) return summary;
   const solver::large_motion::ConstrainedSystem& equations = system;
   return integrate(equations, state, options, observe);

@@ -23,8 +23,8 @@ enum class Tracking { angles, torques };
 void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
                   const solver::Model& model, solver::large_motion::LargeMotionModel& large_motion);
 
-void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
-                   const solver::large_motion::State& state, Recorder& record);
+void record_actuator_drives(const solver::large_motion::GeometricallyExactSystem& system,
+                            const solver::large_motion::State& state, Recorder& record);
 
 /// Removes the supports that lock actuators, if a prescribed motion or a torque acts on these
 /// actuators.
@@ -36,7 +36,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
 
 /// Integrates the motion from the model's pose. The initial velocities are those of the rigid twin
 /// (manipulator with rigid links).
-[[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracked(
+[[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
     const solver::TransientOptions& options, const solver::large_motion::Observer& observe);
 

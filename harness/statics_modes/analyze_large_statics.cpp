@@ -37,7 +37,7 @@ void record_path_point(const GeometricallyExactSystem& system, const PathPoint& 
   const ModelState solution{static_solution(system, point.state)};
   StateRecorder(system.model(), "large-statics").record(solution, record);
   warn_of_strain(system.model(), solution, warnings);
-  record_drives(system, point.state, record);
+  record_actuator_drives(system, point.state, record);
   record.add("newton_iterations", point.newton.correction.size());
   if (point.unstable_directions >= 0) record.add("unstable_directions", point.unstable_directions);
 }
@@ -61,7 +61,7 @@ void record_events(const std::vector<PathEvent>& events, Recorder& record) {
   }
 }
 
-void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
+void record_newton_iterations(const solver::large_motion::NewtonResult& newton, Recorder& record) {
   for (std::size_t i = 0; i < newton.correction.size(); ++i) {
     record.add("newton_iteration", i + 1);
     record.add("newton_correction", newton.correction[i]);
@@ -134,7 +134,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   }
   if (!case_model.path) {
     record_events(events, record);
-    record_newton(recorded_points.back().newton, record);
+    record_newton_iterations(recorded_points.back().newton, record);
   }
   if (result.drawing) draw_poses(system, recorded_points, *result.drawing);
   return result;

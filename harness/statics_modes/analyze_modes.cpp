@@ -24,19 +24,19 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
 }
 
 /// Rejects a key that is incompatible with modes about a loaded or rotating state.
-void require_absent(const JsonView& analysis, const char* key, const char* other_key,
-                    const char* reason) {
+void forbid_key(const JsonView& analysis, const char* key, const char* other_key,
+                const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
   throw analysis[key].error(std::string("this key excludes '") + other_key + "': " + reason);
 }
 
 /// Returns the system of equations, reduced to fixed-interface modes if the analysis has the key
 /// "reduction".
-solver::System reduce_if_requested(const JsonView& analysis, const CaseModel& case_model,
-                                   solver::System system) {
+solver::System reduce_system_if_requested(const JsonView& analysis, const CaseModel& case_model,
+                                          solver::System system) {
   if (!analysis.has("reduction")) return system;
-  require_absent(analysis, "count_below_Hz", "reduction",
-                 "'count_below_Hz' counts all modes of the full model");
+  forbid_key(analysis, "count_below_Hz", "reduction",
+             "'count_below_Hz' counts all modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening))
     throw analysis["reduction"].error("expected no geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
@@ -47,14 +47,13 @@ solver::System reduce_if_requested(const JsonView& analysis, const CaseModel& ca
       system, analysis["reduction"].get<solver::Index>("fixed_interface_modes", 0));
 }
 
-solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model,
-                               const solver::System& system) {
+solver::ModalSolution compute_modes_of_case(const JsonView& analysis, const CaseModel& case_model,
+                                            const solver::System& system) {
   const solver::ModesOptions options = read_modes_options(analysis);
   if (!case_model.effects.has(solver::Effect::geometric_stiffening))
     return solver::solve_modes(system, options);
-  require_absent(analysis, "count_below_Hz",
-                 analysis.has("prestressed") ? "prestressed" : "effects",
-                 "'count_below_Hz' counts modes of the unloaded model");
+  forbid_key(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
+             "'count_below_Hz' counts modes of the unloaded model");
   return solver::solve_prestressed_modes(system, options);
 }
 
@@ -82,7 +81,7 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
 }
 
 /// Returns the nodal translations of each mode shape as a column of norm 1.
-Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
+Eigen::MatrixXd unit_mode_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
   const Eigen::MatrixXd u = system.T * shape;
   const auto& nodes = system.coordinates.node;
   Eigen::MatrixXd translations(2 * std::ssize(nodes), u.cols());
@@ -98,7 +97,7 @@ Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::Mat
 class ShapeTracker {
  public:
   void record(const solver::System& system, const solver::ModalSolution& modes, Recorder& record) {
-    const Eigen::MatrixXd shape = unit_translations(system, modes.shape);
+    const Eigen::MatrixXd shape = unit_mode_translations(system, modes.shape);
     if (last_.size() == 0) last_ = shape;
     Eigen::MatrixXd assurance = (last_.transpose() * shape).cwiseAbs2();
     Eigen::VectorXd frequency = Eigen::VectorXd::Constant(last_.cols(), std::nan(""));
@@ -124,7 +123,7 @@ class ShapeTracker {
 };
 
 /// Returns the shape of a complex mode at the instant when its largest component is at its maximum.
-Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
+Eigen::VectorXd shape_at_maximum(const Eigen::VectorXcd& shape) {
   solver::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   const std::complex<double> turn = std::conj(shape[largest]) / std::abs(shape[largest]);
@@ -179,7 +178,7 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
     recorder.record(state, record);
     if (!result.drawing || several) continue;
     for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i)
-      result.drawing->shapes.push_back(draw_shape(system, snapshot(found.shape.col(i)),
+      result.drawing->shapes.push_back(draw_shape(system, shape_at_maximum(found.shape.col(i)),
                                                   mode_label(i, found.frequency[i], "Hz")));
   }
   record.add("degrees_of_freedom", system.K.rows());
@@ -189,16 +188,16 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
 StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
-    require_absent(analysis, "count_below_Hz", "rotating", "it counts modes of the model at rest");
-    require_absent(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
-    require_absent(analysis, "prestressed", "rotating", "'rotating' includes this stiffening");
+    forbid_key(analysis, "count_below_Hz", "rotating", "it counts modes of the model at rest");
+    forbid_key(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
+    forbid_key(analysis, "prestressed", "rotating", "'rotating' includes this stiffening");
     if (case_model.path) throw analysis["rotating"].error("'rotating' requires one 'pose'");
     return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);
   }
-  const solver::System system = reduce_if_requested(
+  const solver::System system = reduce_system_if_requested(
       analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
-  const solver::ModalSolution modes = modes_of(analysis, case_model, system);
+  const solver::ModalSolution modes = compute_modes_of_case(analysis, case_model, system);
   StepResult result{modes.outcome, modes.counters, modes.evidence};
   if (draw) result.drawing = draw_modes(case_model, system, modes);
   if (!modes.outcome.solved()) return result;
@@ -227,7 +226,7 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
 
 /// Returns true if condensing each link to its ends saves more time than it costs. The dense
 /// matrices of the remaining coordinates must also be small.
-bool is_condensable(const solver::ManipulatorDesign& design) {
+bool saves_time_by_condensation(const solver::ManipulatorDesign& design) {
   constexpr solver::Index kMostElements = 100;
   for (std::size_t i = 0; i < 3; ++i)
     if (std::max(design.proximal[i].elements, design.distal[i].elements) > kMostElements)
@@ -239,12 +238,12 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
 
 /// Returns true if the modes of all poses are computed together. The case must have a manipulator
 /// on a path, and no other parts, rotating frame, reduction or geometric stiffening.
-bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
+bool solves_all_poses_together(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;
-  return case_model.path && case_model.manipulator && is_condensable(*case_model.manipulator) &&
-         !analysis.has("rotating") && !analysis.has("reduction") &&
-         !analysis.has("count_below_Hz") &&
+  return case_model.path && case_model.manipulator &&
+         saves_time_by_condensation(*case_model.manipulator) && !analysis.has("rotating") &&
+         !analysis.has("reduction") && !analysis.has("count_below_Hz") &&
          !case_model.effects.has(solver::Effect::geometric_stiffening) && others.nodes.empty() &&
          others.members.empty() && others.triangles.empty() && others.rigid_bodies.empty() &&
          others.masses.empty() && others.springs.empty() && others.supports.empty() &&
@@ -289,9 +288,9 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
                          Recorder& record) {
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
-    require_absent(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
+    forbid_key(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
     if (!case_model.path) throw analysis["track_shapes"].error("this key requires 'trajectory'");
-  } else if (follows_pose(analysis, case_model)) {
+  } else if (solves_all_poses_together(analysis, case_model)) {
     return analyze_modes_of_poses(analysis, case_model, draw, record);
   }
   ShapeTracker tracker;

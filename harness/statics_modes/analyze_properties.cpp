@@ -50,7 +50,7 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
 
 /// Returns mass and center of mass of a six-node triangle by numerical integration, because its
 /// sides may be curved.
-Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
+Body body_of_six_node_triangle(const solver::Model& model, const solver::Triangle& triangle) {
   const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;
   for (const solver::TriangleQuadraturePoint& point : solver::triangle_quadrature()) {
@@ -62,7 +62,7 @@ Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& trian
 }
 
 Body body_of(const solver::Model& model, const solver::Triangle& triangle) {
-  if (triangle.quadratic()) return body_of_six_nodes(model, triangle);
+  if (triangle.quadratic()) return body_of_six_node_triangle(model, triangle);
   const auto corner = [&](std::size_t i) {
     return model.nodes[solver::to_size(triangle.nodes[i])].position;
   };

@@ -121,7 +121,7 @@ StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_m
     const double value = parameter_value(*case_model.manipulator, named[p].parameter);
     for (solver::Index i = 0; i < found.frequency.size(); ++i) {
       const double derivative = found.derivative(i, column);
-      record.add(sensitivity_name(named[p].parameter.kind), named[p].name, derivative);
+      record.add(frequency_sensitivity_name(named[p].parameter.kind), named[p].name, derivative);
       if (found.frequency[i] == 0) continue;  // rigid-body motions
       record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
     }

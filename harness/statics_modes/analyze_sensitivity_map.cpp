@@ -46,8 +46,8 @@ double for_map(double value) {
 
 /// Evaluates and records the sensitivity map of one orientation.
 /// @param positions  true to record each position of the map
-Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
-                 const std::string& item, double margin, bool positions, Recorder& record) {
+Reading evaluate_map(const solver::SensitivityMap& map, const std::string& quantity,
+                     const std::string& item, double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
   double count = 0;
   for (solver::Index j = 0; j < map.grid.rows; ++j)
@@ -74,7 +74,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
 
 /// Records the increase of the magnitudes of sensitivity and frequency from the first orientation
 /// to each further orientation [%].
-void record_rises(const std::vector<Reading>& readings, Recorder& record) {
+void record_increases_from_first(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
     for (std::size_t k = 1; k < readings.size(); ++k)
@@ -104,7 +104,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     if (!solver::has_exact_derivative(parameter.kind))
       throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
-  const std::string quantity = sensitivity_name(parameter.kind);
+  const std::string quantity = frequency_sensitivity_name(parameter.kind);
   const double margin = analysis.get("serial_margin", 0.1);
   const bool positions = analysis.get("positions", true);
   StepResult result;
@@ -119,7 +119,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     const solver::SensitivityMap map = solver::map_first_frequency(design, parameter, grid);
     result.counters += map.counters;
     result.evidence.add(map.evidence);
-    Reading reading = read_map(map, quantity, item, margin, positions, record);
+    Reading reading = evaluate_map(map, quantity, item, margin, positions, record);
     const solver::FirstFrequency at_center = solver::first_frequency(design, parameter, center);
     result.outcome = at_center.outcome;
     result.evidence.add(at_center.evidence);
@@ -142,7 +142,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     record.add_or_missing("mean_" + quantity, "", reading.mean);
     record.add_or_missing("largest_" + quantity, "", reading.largest);
   }
-  record_rises(readings, record);
+  record_increases_from_first(readings, record);
   return result;
 }
 

@@ -23,7 +23,7 @@ using Kind = DesignParameter::Kind;
 
 /// Calls visit(value) for each number of links, platform and joints that the parameter selects.
 template <class Visit>
-void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
+void visit_parameter(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
   const Kind kind = parameter.kind;
   const bool length = kind == Kind::length;
   const auto meet = [&visit](double* x) {
@@ -105,7 +105,7 @@ class Differences {
   }
 
   VectorXd frequencies(double change) {
-    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
+    const DesignInPose changed = perturb_design(design_, pose_, parameter_, change);
     const ModalSolution modes = solver::solve_modes(
         solver::assemble(solver::build_manipulator(changed.design, changed.pose)),
         {.count = count_ + kExtraModes});
@@ -116,7 +116,7 @@ class Differences {
   }
 
   [[nodiscard]] bool within_reach(double change) const {
-    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
+    const DesignInPose changed = perturb_design(design_, pose_, parameter_, change);
     return solver::inverse_kinematics(changed.design.geometry, changed.pose).outcome.solved();
   }
 
@@ -181,8 +181,8 @@ class Differences {
 
 }  // namespace
 
-DesignInPose perturbed(const ManipulatorDesign& design, const solver::Pose& pose,
-                       const DesignParameter& parameter, double change) {
+DesignInPose perturb_design(const ManipulatorDesign& design, const solver::Pose& pose,
+                            const DesignParameter& parameter, double change) {
   DesignInPose changed{design, pose};
   ManipulatorDesign& result = changed.design;
   switch (parameter.kind) {
@@ -202,7 +202,7 @@ DesignInPose perturbed(const ManipulatorDesign& design, const solver::Pose& pose
       changed.pose.phi += change;
       break;
     default:
-      for_each_value(result, parameter, [change](double& x) { x += change; });
+      visit_parameter(result, parameter, [change](double& x) { x += change; });
   }
   return changed;
 }
@@ -225,7 +225,7 @@ double parameter_value(const ManipulatorDesign& design, const DesignParameter& p
     case Kind::orientation:
       return 1;
     default:
-      for_each_value(copy, parameter, [&](double& x) { largest = std::max(largest, x); });
+      visit_parameter(copy, parameter, [&](double& x) { largest = std::max(largest, x); });
       return largest;
   }
 }

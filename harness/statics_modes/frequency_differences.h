@@ -18,9 +18,9 @@ struct DesignInPose {
 
 /// Returns the design with the parameter increased by `change` [unit of the parameter: m, Pa,
 /// kg/m^3, -, kg, kg m^2, N m/rad, rad].
-[[nodiscard]] DesignInPose perturbed(const solver::ManipulatorDesign& design,
-                                     const solver::Pose& pose,
-                                     const solver::DesignParameter& parameter, double change);
+[[nodiscard]] DesignInPose perturb_design(const solver::ManipulatorDesign& design,
+                                          const solver::Pose& pose,
+                                          const solver::DesignParameter& parameter, double change);
 
 /// Returns the value of a parameter: the largest value of the selected parts, or 0 if no part has
 /// this parameter. For the orientation, returns 1 rad, because an angle has no natural zero.

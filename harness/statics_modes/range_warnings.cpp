@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2d;
 
 /// Returns the rotation about the triangle's center that fits the motion of its corners best.
-double rotation_of(const solver::System& system, const solver::Triangle& triangle,
-                   const Eigen::VectorXd& u) {
+double rotation_of_triangle(const solver::System& system, const solver::Triangle& triangle,
+                            const Eigen::VectorXd& u) {
   Vector2d center = Vector2d::Zero(), shift = Vector2d::Zero();
   std::array<Vector2d, 3> place, motion;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ double largest_rotation(const solver::System& system, const Eigen::VectorXd& u) 
     largest = std::max(largest, std::abs(solver::cross(e.direction, shift)) / e.length);
   }
   for (const solver::Triangle& triangle : system.model.triangles)
-    largest = std::max(largest, std::abs(rotation_of(system, triangle, u)));
+    largest = std::max(largest, std::abs(rotation_of_triangle(system, triangle, u)));
   return largest;
 }
 

@@ -22,8 +22,8 @@ void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd&
 namespace {
 
 /// Keeps the drawing of the first point of a path, and adds the drawings of later points as poses.
-void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
-                std::optional<Drawing>& all) {
+void add_pose_drawing(const CaseModel& case_model, std::size_t step, Drawing found,
+                      std::optional<Drawing>& all) {
   if (!all) all = std::move(found);
   const std::vector<results::Shape>& shapes = step == 0 ? all->shapes : found.shapes;
   const std::vector<results::Point>& nodes = step == 0 ? all->nodes : found.nodes;
@@ -45,7 +45,7 @@ StepResult analyze_path_points(
     all.counters += found.counters;
     all.evidence.add(found.evidence);
     add_warnings(all.warnings, found.warnings);
-    if (found.drawing) add_moment(case_model, step, std::move(*found.drawing), all.drawing);
+    if (found.drawing) add_pose_drawing(case_model, step, std::move(*found.drawing), all.drawing);
     if (found.outcome.solved()) continue;
     all.outcome = outcome_at_path_point(case_model, step, found.outcome);
     break;

@@ -41,7 +41,7 @@ Json patch_keeping_output_times(const Document& document) {
 }
 
 /// Returns the description of a discretization: "elements 8, step 0.001".
-std::string setting_of(const Document& document) {
+std::string describe_discretization(const Document& document) {
   std::vector<std::string> parts;
   const Json& json = document.value();
   const auto add = [&](const std::string& word, const std::string& pointer) {
@@ -88,7 +88,7 @@ class Search {
       current_ = best_->document;
       found_.result = std::move(best_->result);
       bands_ = std::move(best_->bands);
-      found_.errors.reason += "; the results are those of " + setting_of(current_);
+      found_.errors.reason += "; the results are those of " + describe_discretization(current_);
     }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
     found_.asked = asked_;
@@ -103,7 +103,7 @@ class Search {
   }
 
   void coarsen() {
-    if (!can_be_refined(current_))
+    if (!has_mesh_or_time_steps(current_))
       throw current_.error("/analysis", "the case has no mesh and no time step to be refined");
     while (const auto patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
@@ -168,7 +168,7 @@ class Search {
         two_levels_[source] = error_bands(first, fine, source, {current_, true, finer->ratio, ""});
     }
     bands_ = two_levels_;
-    found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
+    found_.errors.search.push_back({describe_discretization(current_), error(), cpu_s_});
   }
 
   void choose_quantities() {
@@ -233,7 +233,7 @@ class Search {
     const Companion coarser{current_, false, finer->ratio, ""};
     ErrorBands two_levels = error_bands(found_.result, coarse, source, coarser);
     current_ = finer->document;
-    bands_[source] = with_observed_order(two_levels, two_levels_[source], source, coarser);
+    bands_[source] = bands_with_observed_order(two_levels, two_levels_[source], source, coarser);
     two_levels_[source] = std::move(two_levels);
     if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);
     if (has_exact_steps(current_))  // a peak can still lie between samples
@@ -242,7 +242,7 @@ class Search {
     if (!probed_.contains(source)) found_.tried.push_back(current_);
     probed_.clear();
     const double error_now = error();
-    found_.errors.search.push_back({setting_of(current_), error_now, cpu_s_});
+    found_.errors.search.push_back({describe_discretization(current_), error_now, cpu_s_});
     if (!best_ || error_now <= best_->error) best_ = {current_, found_.result, bands_, error_now};
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
     if (stalled_ < 3) return true;
@@ -279,7 +279,7 @@ class Search {
 
 }  // namespace
 
-bool can_be_refined(const Document& document) {
+bool has_mesh_or_time_steps(const Document& document) {
   return adjacent_refinement_level(document, ErrorSource::mesh) ||
          adjacent_refinement_level(document, ErrorSource::step);
 }
@@ -301,7 +301,7 @@ CostStudy cost_study_of_search(const Case& given, const std::string& variant,
   const auto add = [&](const Document& document) {
     Setting setting;
     setting.curve = setting.curve_title = "refinement";
-    setting.title = setting_of(document);
+    setting.title = describe_discretization(document);
     setting.document = document;
     setting.observed = observed;
     return setting;

@@ -21,7 +21,7 @@ struct AccuracyRequest {
 
 struct AccuracySearch {
   std::vector<Document> tried;  ///< all computed discretizations, coarse to fine
-  /// Result with the last discretization tried, or with the most accurate one.
+  /// Result with the last discretization if it is accurate enough, else with the most accurate one.
   AnalysisResult result;
   results::ErrorEstimates errors;
   std::vector<std::string> asked;  ///< names of the quantities that must be accurate; empty: all
@@ -29,7 +29,7 @@ struct AccuracySearch {
 };
 
 /// Returns true if the analysis uses a mesh or time steps, so that its accuracy can be chosen.
-[[nodiscard]] bool can_be_refined(const Document& document);
+[[nodiscard]] bool has_mesh_or_time_steps(const Document& document);
 
 /// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from a coarse
 /// discretization: up to four times the case's time step, and the case's numbers of elements,

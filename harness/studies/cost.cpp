@@ -44,8 +44,8 @@ std::vector<double> relative_errors(const std::vector<double>& found,
 }
 
 /// Returns the values of the quantities that belong to one output of a cost study.
-Observations values_of(const Observations& all, const std::vector<ObservedQuantity>& observed,
-                       std::size_t output) {
+Observations values_of_output(const Observations& all,
+                              const std::vector<ObservedQuantity>& observed, std::size_t output) {
   Observations values;
   for (std::size_t i = 0; i < observed.size(); ++i)
     if (observed[i].output == output) values.push_back(all.at(i));
@@ -58,10 +58,10 @@ std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, con
                                                      const Observations& reference_solution) {
   std::vector<std::optional<ErrorNorms>> errors;
   for (std::size_t k = 0; k < study.outputs.size(); ++k) {
-    const Observations values = values_of(found, setting.observed, k);
+    const Observations values = values_of_output(found, setting.observed, k);
     Observations truth;
     if (study.reference_solution)
-      truth = values_of(reference_solution, study.reference_solution->observed, k);
+      truth = values_of_output(reference_solution, study.reference_solution->observed, k);
     std::size_t i = 0;
     for (const ObservedQuantity& one : setting.observed) {
       if (one.output != k) continue;
@@ -129,8 +129,8 @@ bool is_computed(const CostSetting& setting) {
 }
 
 /// @param output  index of the output; empty: the largest error of all outputs
-std::optional<double> error_of(const CostSetting& setting, const std::string& norm,
-                               std::optional<std::size_t> output) {
+std::optional<double> error_of_setting(const CostSetting& setting, const std::string& norm,
+                                       std::optional<std::size_t> output) {
   const auto get = [&](const std::optional<ErrorNorms>& error) {
     return error ? std::optional(*error->get(norm)) : std::nullopt;
   };
@@ -154,7 +154,7 @@ void time_settings(const CostStudy& study, results::CostStudy& measured, const C
       (void)analyze(document, references, {false});
     });
   }
-  const auto timings = time_interleaved(works, options.timing, [&] {
+  const auto timings = measure_interleaved(works, options.timing, [&] {
     done += measured.settings.size();
     if (options.progress) options.progress(done, all);
   });
@@ -167,10 +167,10 @@ void time_settings(const CostStudy& study, results::CostStudy& measured, const C
 
 std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPoint>& points) {
   std::vector<results::CheapestSetting> all;
-  for (const double error : target_errors()) {
+  for (const double error : target_errors_of_report()) {
     results::CheapestSetting& best = all.emplace_back();
     best.error = error;
-    if (const auto point = fastest_within(points, error)) best.setting = point->setting;
+    if (const auto point = fastest_allowed(points, error)) best.setting = point->setting;
     best.tied = tied_settings(points, error);
   }
   return all;
@@ -178,7 +178,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
 
 /// Returns the results of a cost study before its measurement: titles and descriptions without
 /// settings.
-results::CostStudy describe(const CostStudy& study) {
+results::CostStudy unmeasured_study(const CostStudy& study) {
   results::CostStudy out;
   out.id = study.id;
   out.family = study.family;
@@ -230,7 +230,7 @@ std::vector<CostPoint> cost_points(const results::CostStudy& study,
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
     const CostSetting& setting = study.settings[i];
     if (!setting.is_measured()) continue;
-    const auto error = error_of(setting, study.norm, output);
+    const auto error = error_of_setting(setting, study.norm, output);
     if (!error || !(*error <= kDivergedError)) continue;
     const RelativeTime time = time_ratio(setting.time->cpu_s, baseline, first_repeat, stride);
     points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
@@ -241,7 +241,7 @@ std::vector<CostPoint> cost_points(const results::CostStudy& study,
 results::CostStudy measure_study(const CostStudy& study, const CostOptions& options,
                                  const References& references) {
   const Stopwatch watch;
-  results::CostStudy measured = describe(study);
+  results::CostStudy measured = unmeasured_study(study);
   const auto repeats = static_cast<std::size_t>(options.timing.repeats);
   const std::size_t all = study.settings.size() * (repeats + 1);
   std::size_t done = 0;
@@ -279,7 +279,7 @@ void derive_time_ratios_and_front(results::CostStudy& measured) {
   }
   const std::vector<CostPoint> points = cost_points(measured), front = find_pareto_front(points);
   for (std::size_t i = 0; i < titles.size(); ++i)
-    measured.settings[i].pareto_optimal = has_setting(front, i);
+    measured.settings[i].pareto_optimal = has_point_of_setting(front, i);
   measured.cheapest = cheapest_settings(points);
   for (std::size_t k = 0; k < measured.outputs.size(); ++k) {
     results::CostOutput& output = measured.outputs[k];

@@ -26,7 +26,7 @@ inline constexpr double kDivergedError = 10;
 /// Returns the measured settings of a cost study as points of error and time. The error is that of
 /// one output in the study's norm, or the largest over all outputs if `output` is empty. Settings
 /// that lack an error or diverge are omitted.
-/// @param first, step  first repeat and step between repeats that are used, as in `relative_time`
+/// @param first_repeat, stride  selects the repeats that are used, as in `time_ratio`
 [[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study,
                                                  std::optional<std::size_t> output = 0,
                                                  std::size_t first_repeat = 0,

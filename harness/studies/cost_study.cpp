@@ -46,8 +46,8 @@ std::size_t index_of_output(const JsonView& study, const JsonView& place) {
   throw place["output"].error("expected one of the 'outputs' of the study");
 }
 
-std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonView& quantities,
-                                            const References& references) {
+std::vector<ObservedQuantity> read_quantities(const JsonView& study, const JsonView& quantities,
+                                              const References& references) {
   std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
     ObservedQuantity entry;
@@ -111,7 +111,7 @@ bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
   return contains(quick, value);
 }
 
-void check_quick(const JsonView& curve) {
+void validate_quick_values(const JsonView& curve) {
   if (!curve.has("quick_values") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
   for (const auto& entry : curve["quick_values"].entries())
@@ -122,12 +122,12 @@ void check_quick(const JsonView& curve) {
 std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
                                 const JsonView& curve, SweepExtent extent,
                                 const References& references) {
-  check_quick(curve);
+  validate_quick_values(curve);
   Setting setting;
   setting.curve = name;
   setting.curve_title = setting.title = curve.text("title");
   const JsonView quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
-  setting.observed = read_observed(study, quantities, references);
+  setting.observed = read_quantities(study, quantities, references);
   const Document start = patched_study_case(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
@@ -150,7 +150,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   return settings;
 }
 
-std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& settings) {
+std::size_t find_baseline_setting(const JsonView& place, const std::vector<Setting>& settings) {
   const auto found = std::ranges::find_if(settings, [&](const Setting& setting) {
     const bool same_value = setting.value.has_value() == place.has("value") &&
                             (!setting.value.has_value() || *setting.value == place.number("value"));
@@ -176,7 +176,7 @@ std::pair<Scale, std::string> read_scale(const JsonView& output) {
 }
 
 /// Requires that all quantities with a common scale have the same unit.
-void check_scale(const Scale& scale, std::size_t output, const JsonView& study) {
+void require_one_unit_of_scale(const Scale& scale, std::size_t output, const JsonView& study) {
   if (scale.kind == Scale::Kind::entry) return;
   std::string unit;
   for (const auto& [name, place] : study["quantities"].entries()) {
@@ -189,7 +189,7 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
 std::vector<StudyOutput> read_outputs(const JsonView& study) {
   const auto read = [&](const JsonView& place, std::size_t number, const std::string& title) {
     const auto [scale, description] = read_scale(place);
-    check_scale(scale, number, study);
+    require_one_unit_of_scale(scale, number, study);
     return StudyOutput{title, scale, description};
   };
   const auto several = study.find("outputs");
@@ -228,18 +228,18 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   Setting reference_solution;
   reference_solution.title = study.reference_description = place.text("title");
   const JsonView quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
-  reference_solution.observed = read_observed(root, quantities, references);
+  reference_solution.observed = read_quantities(root, quantities, references);
   reference_solution.document = patched_study_case(root, place);
   reference_solution.document.validate("case");
   study.reference_solution = std::move(reference_solution);
 }
 
-std::size_t count_of(const Setting& setting, std::size_t output) {
+std::size_t quantity_count(const Setting& setting, std::size_t output) {
   return static_cast<std::size_t>(std::ranges::count_if(
       setting.observed, [output](const ObservedQuantity& one) { return one.output == output; }));
 }
 
-void check_counts(const JsonView& root, const CostStudy& study) {
+void validate_quantity_counts(const JsonView& root, const CostStudy& study) {
   const auto names = root["quantities"];
   for (std::size_t k = 0; k < study.outputs.size(); ++k) {
     std::size_t wanted = 0;
@@ -248,11 +248,11 @@ void check_counts(const JsonView& root, const CostStudy& study) {
                                  (k > 0 ? " of '" + study.outputs[k].title + "', or none" : "");
     if (wanted == 0) throw names.error("no quantity of output '" + study.outputs[k].title + "'");
     for (const Setting& setting : study.settings) {
-      const std::size_t given = count_of(setting, k);
+      const std::size_t given = quantity_count(setting, k);
       if (given != wanted && (k == 0 || given > 0))
         throw root["curves"][setting.curve].error(expected);
     }
-    if (study.reference_solution && count_of(*study.reference_solution, k) != wanted)
+    if (study.reference_solution && quantity_count(*study.reference_solution, k) != wanted)
       throw root["reference_solution"].error(expected);
   }
 }
@@ -314,10 +314,10 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
     std::vector<Setting> curve_settings = read_curve(root, name, curve, extent, references);
     std::ranges::move(curve_settings, std::back_inserter(study.settings));
   }
-  study.baseline = find_baseline(root["baseline"], study.settings);
+  study.baseline = find_baseline_setting(root["baseline"], study.settings);
   read_reference_solution(root, study, references);
   study.outputs = read_outputs(root);
-  check_counts(root, study);
+  validate_quantity_counts(root, study);
   study.norm = root.get("norm", study.norm);
   study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
   return study;

@@ -28,7 +28,7 @@ std::vector<Check> convergence_checks(const Document& document, const std::strin
   if (!document.value().contains("checks")) return checks;
   for (const Check& check : read_checks(document, variant, variants)) {
     const bool compared = !check.reference.empty() || !check.against_variant.empty();
-    if (!is_count(check.quantity) && (compared || check.order)) checks.push_back(check);
+    if (!is_count_quantity(check.quantity) && (compared || check.order)) checks.push_back(check);
   }
   return checks;
 }
@@ -43,7 +43,7 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
 
 /// Removes the quantities without exact values if others have exact values, because a cost study
 /// measures all errors against the same kind of reference.
-bool drop_inexact_quantities(std::vector<ObservedQuantity>& observed) {
+bool drop_without_exact_value(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::ranges::all_of(observed, lacks)) return false;
   std::erase_if(observed, lacks);
@@ -98,7 +98,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   if (observed.empty())
     throw first.error(
         "the sweep has no 'quantities', and no check compares a quantity with a reference");
-  const bool exact = drop_inexact_quantities(observed);
+  const bool exact = drop_without_exact_value(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {
     for (Setting& setting : settings_of_sweep(document, name, observed))

@@ -43,7 +43,7 @@ bool is_closed_form(const std::string& kind) {
 
 /// Returns true for equilibria of springs, bars and rigid bodies, which have no discretization
 /// error.
-bool is_exact(const Document& document) {
+bool has_exact_equilibrium(const Document& document) {
   const std::string kind = inner_analysis_kind(document);
   const bool is_statics = kind == "statics" || kind == "large-statics" || kind == "buckling";
   return is_statics && document.value().contains("model") &&
@@ -60,7 +60,7 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
 }
 
 /// Returns the order of convergence in the element size; empty if nodal values are exact.
-std::optional<double> mesh_order(const Document& document, const std::string& quantity) {
+std::optional<double> order_in_element_size(const Document& document, const std::string& quantity) {
   const Json& model = document.value()["model"];
   const std::string kind = inner_analysis_kind(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
@@ -89,7 +89,7 @@ std::optional<double> mesh_order(const Document& document, const std::string& qu
 
 /// Returns the order of convergence in the time step. With a step control, returns the exponent of
 /// the tolerance to which the error is proportional.
-double step_order(const Document& document, const std::string& quantity) {
+double order_in_time_step(const Document& document, const std::string& quantity) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   if (inner_analysis_kind(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
@@ -111,15 +111,15 @@ double step_order(const Document& document, const std::string& quantity) {
 /// Returns the order of convergence, which is the lowest order of all discretized parts.
 /// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
 /// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963), and for the
-/// conditions named in `mesh_order`.
+/// conditions named in `order_in_element_size`.
 /// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
 /// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
 /// if nodal values are exact in theory.
 std::optional<double> theoretical_order(const Document& document, ErrorSource source,
                                         const std::string& quantity) {
-  if (source == ErrorSource::mesh) return mesh_order(document, quantity);
+  if (source == ErrorSource::mesh) return order_in_element_size(document, quantity);
   // The largest value among samples converges at most with order 2 in the distance between samples.
-  const double order = step_order(document, quantity);
+  const double order = order_in_time_step(document, quantity);
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
 
@@ -145,7 +145,7 @@ bool is_varied_by_study(const Document& document, const std::string& pointer) {
          study.value("patches", Json::array({Json()})).front().contains(JsonPointer(pointer));
 }
 
-bool has_shapes(const AnalysisResult& result) {
+bool has_mode_shapes(const AnalysisResult& result) {
   return result.drawing && !result.drawing->shapes.empty() &&
          result.drawing->shapes.front().label.starts_with("mode") &&
          result.quantities.contains("frequency_Hz");
@@ -153,7 +153,7 @@ bool has_shapes(const AnalysisResult& result) {
 
 /// Returns true if a frequency or load factor has no match on the other mesh, or if a curve
 /// has fewer than two common samples.
-bool has_unmatched(const ErrorBands& bands) {
+bool lacks_a_match(const ErrorBands& bands) {
   return std::ranges::any_of(bands, [](const auto& item) {
     const std::vector<double>& width = item.second.half_width;
     const auto known = std::ranges::count_if(width, [](double x) { return std::isfinite(x); });
@@ -168,7 +168,7 @@ class ErrorScales {
   ErrorScales(const Document& document, const AnalysisResult& own)
       : own_(own.quantities), kind_(inner_analysis_kind(document)) {
     if (!document.value().contains("model")) return;
-    const ModelScales model = typical_scales(model_at_path_start(read_case_model(document)));
+    const ModelScales model = typical_model_scales(model_at_path_start(read_case_model(document)));
     Quantities grouped = own_;
     for (const auto& [name, quantity] : own_)  // peaks share the scales of the curves
       if (base_name(name) != name) grouped.emplace(base_name(name), quantity);
@@ -225,18 +225,18 @@ bool is_estimated(const std::string& name) {
       "digits",  "frequency_gap", "effect_",           "error",
       "step",    "drift",         "newton_correction", "iteration",
       "elements"};
-  return !is_error_measure(name) && !is_count(head) &&
+  return !is_error_measure(name) && !is_count_quantity(head) &&
          std::ranges::none_of(others,
                               [&](const auto& part) { return head.find(part) != head.npos; });
 }
 
-std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
-                                                      const AnalysisResult& other) {
+std::vector<std::optional<std::size_t>> modes_matched_by_shape(const AnalysisResult& own,
+                                                               const AnalysisResult& other) {
   const std::vector<double>& frequency = own.quantities.at("frequency_Hz").values;
   const std::vector<double>& others = other.quantities.at("frequency_Hz").values;
   std::vector<std::optional<std::size_t>> places(frequency.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
-  if (!has_shapes(own) || !has_shapes(other)) return places;
+  if (!has_mode_shapes(own) || !has_mode_shapes(other)) return places;
   const auto [a, b] = sample_modes(frequency, *own.drawing, others, *other.drawing);
   for (std::size_t i = 0; i < a.frequency.size(); ++i)
     if (i >= others.size() || std::abs(frequency[i] - others[i]) > kLargeDifference * frequency[i])
@@ -247,9 +247,10 @@ std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
   return places;
 }
 
-std::vector<std::optional<std::size_t>> matched_samples(const Quantities& own,
-                                                        const Quantities& other, std::size_t size,
-                                                        std::size_t other_size) {
+std::vector<std::optional<std::size_t>> samples_matched_by_time(const Quantities& own,
+                                                                const Quantities& other,
+                                                                std::size_t size,
+                                                                std::size_t other_size) {
   std::vector<std::optional<std::size_t>> places(size);
   const auto times = [](const Quantities& quantities, std::size_t samples) {
     const auto time = quantities.find("time_s");
@@ -328,10 +329,10 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
     if (!is_estimated(name) || found == other.quantities.end()) continue;
     const std::vector<double>& values = quantity.values;
     const std::vector<double>& others = found->second.values;
-    const auto places =
-        name == "frequency_Hz"
-            ? matched_modes(result, other)
-            : matched_samples(result.quantities, other.quantities, values.size(), others.size());
+    const auto places = name == "frequency_Hz"
+                            ? modes_matched_by_shape(result, other)
+                            : samples_matched_by_time(result.quantities, other.quantities,
+                                                      values.size(), others.size());
     const double scale = scales.of(name);
     const std::optional<double> order = theoretical_order(document, source, name);
     ErrorBand band{std::vector<double>(values.size(), kNaN), {}, {}, order, true};
@@ -375,8 +376,8 @@ ErrorBands error_bands(const AnalysisResult& result, const AnalysisResult& other
   return bands;
 }
 
-ErrorBands with_observed_order(ErrorBands bands, const ErrorBands& coarser, ErrorSource source,
-                               const Companion& companion) {
+ErrorBands bands_with_observed_order(ErrorBands bands, const ErrorBands& coarser,
+                                     ErrorSource source, const Companion& companion) {
   constexpr double kFactor = 1.25, kNear = 0.5, kLowest = 0.5;
   for (auto& [name, band] : bands) {
     const auto before = coarser.find(name);
@@ -454,14 +455,14 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
     for (const Refine refine : {Refine::coarser, Refine::finer}) {
       const auto companion = adjacent_refinement_level(document, source, refine, &result);
       if (!companion) continue;
-      if (!used.empty() && (used == companion->words || !has_unmatched(bands[source]))) continue;
+      if (!used.empty() && (used == companion->words || !lacks_a_match(bands[source]))) continue;
       failed = companion->words;
       const auto model = [&] { return model_at_path_start(read_case_model(document)); };
       if (companion->finer && unknown_count(model()) > 1000) continue;
       try {
         companion->document.validate("case");
         const auto other =
-            analyze(companion->document, references, {.drawing = has_shapes(result)});
+            analyze(companion->document, references, {.drawing = has_mode_shapes(result)});
         counters += other.counters;
         if (!other.outcome.solved() || (!companion->finer && is_same_result(result, other)))
           continue;
@@ -476,7 +477,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& r
     if (used.empty() && !failed.empty())
       found.reason = "the computation with " + failed + " has no solution or is too expensive";
   }
-  if (bands.empty() && found.reason.empty() && !is_exact(document))
+  if (bands.empty() && found.reason.empty() && !has_exact_equilibrium(document))
     found.reason = "the analysis has neither a mesh nor steps";
   if (bands.empty() && found.reason.empty()) {  // round-off is the only error
     found.companions = "none: springs, bars and rigid bodies have no mesh";

@@ -36,15 +36,13 @@ struct Companion {
 /// Returns, for each mode, the index of the mode of the other result with the same shape. Modes
 /// without a counterpart are matched by their numbers if their frequencies differ by at most 10 %.
 /// Modes without a drawn shape are always matched by number. The index is empty if no mode matches.
-[[nodiscard]] std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
-                                                                    const AnalysisResult& other);
+[[nodiscard]] std::vector<std::optional<std::size_t>> modes_matched_by_shape(
+    const AnalysisResult& own, const AnalysisResult& other);
 
 /// Returns, for each entry of a quantity, the index of the entry of the other result at the same
 /// time. Without times, entries have equal indices if both quantities have the same size.
-[[nodiscard]] std::vector<std::optional<std::size_t>> matched_samples(const Quantities& own,
-                                                                      const Quantities& other,
-                                                                      std::size_t size,
-                                                                      std::size_t other_size);
+[[nodiscard]] std::vector<std::optional<std::size_t>> samples_matched_by_time(
+    const Quantities& own, const Quantities& other, std::size_t size, std::size_t other_size);
 
 /// Returns true if the results on two refinement levels are the same to the last bit. Both levels
 /// then had the same time steps, and their difference is no estimate of the error.
@@ -76,8 +74,8 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// Oberkampf & Roy 2010, Verification and Validation in Scientific Computing, 8.6.
 /// @param bands    bands from the two finer levels
 /// @param coarser  bands from the two coarser levels
-[[nodiscard]] ErrorBands with_observed_order(ErrorBands bands, const ErrorBands& coarser,
-                                             ErrorSource source, const Companion& companion);
+[[nodiscard]] ErrorBands bands_with_observed_order(ErrorBands bands, const ErrorBands& coarser,
+                                                   ErrorSource source, const Companion& companion);
 
 /// Returns the relative errors of a solved computation: sums of the half widths of the error bands
 /// due to mesh and time step, divided by the scales of the values.

@@ -23,7 +23,7 @@ using solver::Effects;
 class Study {
  public:
   Study(const Document& document, const EffectStudyOptions& options)
-      : document_(document), automatic_(with_effects(document, Effects())), options_(options) {
+      : document_(document), automatic_(apply_effects(document, Effects())), options_(options) {
     const auto requested = JsonView(document).find("effects");
     study_.tolerance = requested && requested->json().is_object()
                            ? (*requested)["auto"].number("tolerance")
@@ -31,7 +31,7 @@ class Study {
     automatic_.apply_patch(document.origin("").file, "",
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     scene_ = read_case_model(automatic_);
-    size_ = typical_scales(model_at_path_start(scene_));
+    size_ = typical_model_scales(model_at_path_start(scene_));
     (void)solver::assemble(model_at_path_start(scene_));  // throws for an invalid model
     study_.scope = effect_scope(document_, scene_);
   }
@@ -57,7 +57,7 @@ class Study {
 
  private:
   EffectRun compute(Effects effects, Effects from = {}) {
-    const Document given = with_effects(document_, effects);
+    const Document given = apply_effects(document_, effects);
     const Stopwatch watch;
     const AnalysisResult result = analyze(given, references_, {.drawing = false});
     EffectRun run;
@@ -71,7 +71,7 @@ class Study {
     run.work = estimated_work(result.counters, unknown_count(model_at_path_start(scene_)));
     if (run.outcome.solved()) {
       const Quantities& full = study_.full.quantities;
-      run.changes = changes_between(full.empty() ? run.quantities : full, run.quantities, size_);
+      run.changes = result_changes(full.empty() ? run.quantities : full, run.quantities, size_);
     } else {
       run.changes["solution"] = {std::numeric_limits<double>::infinity(), 0};
     }
@@ -81,11 +81,11 @@ class Study {
   void compare_meshes() {
     const auto coarser = adjacent_refinement_level(document_, ErrorSource::mesh);
     if (!study_.chosen.outcome.solved() || !coarser || coarser->finer) return;
-    const AnalysisResult result = analyze(with_effects(coarser->document, study_.choice.chosen),
+    const AnalysisResult result = analyze(apply_effects(coarser->document, study_.choice.chosen),
                                           references_, {.drawing = false});
     if (result.outcome.solved())
       study_.mesh_change =
-          max_change(changes_between(study_.chosen.quantities, result.quantities, size_)).value;
+          max_change(result_changes(study_.chosen.quantities, result.quantities, size_)).value;
   }
 
   std::vector<Effect> removable(Effects from) const {
@@ -109,7 +109,7 @@ class Study {
     }
     works.emplace_back(
         [this, scene = read_case_model(automatic_)] { (void)choose_effects(automatic_, scene); });
-    const auto timings = time_interleaved(works, {.repeats = options_.repeats}, nullptr);
+    const auto timings = measure_interleaved(works, {.repeats = options_.repeats}, nullptr);
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->cpu_s = timings[i].median_s;
     study_.deciding_cpu_s = timings.back().median_s;
   }
@@ -136,7 +136,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
   if (!supports_effects(document))
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
-  require_memory(document);
+  require_sufficient_memory(document);
   return rethrow_as_input_error(document, [&] { return Study(document, options).run(); });
 }
 

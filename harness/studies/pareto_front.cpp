@@ -30,8 +30,8 @@ std::string list_tied_settings(std::size_t setting, const std::vector<std::size_
 /// Describes the time that a higher accuracy than that of the point `first` requires.
 /// @param fine  the fastest point with an error of at most 1e-6
 /// @param best  the most accurate point
-std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
-                            const CostPoint& best, const std::vector<std::string>& titles) {
+std::string describe_finest_setting(const CostPoint& first, const std::optional<CostPoint>& fine,
+                                    const CostPoint& best, const std::vector<std::string>& titles) {
   if (fine && fine->setting == first.setting) return ", and its error is at most 1e-6 as well.";
   if (fine)
     return fmt::format("; an error of 1e-6 requires '{}', which takes {} times as long.",
@@ -44,7 +44,7 @@ std::string describe_finest(const CostPoint& first, const std::optional<CostPoin
 
 }  // namespace
 
-std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points, double error) {
+std::optional<CostPoint> fastest_allowed(const std::vector<CostPoint>& points, double error) {
   double min_time = std::numeric_limits<double>::infinity();
   for (const CostPoint& point : points)
     if (point.error <= error) min_time = std::min(min_time, point.time);
@@ -58,7 +58,7 @@ std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points, do
 
 std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, double error) {
   std::vector<std::size_t> tied;
-  const auto best = fastest_within(points, error);
+  const auto best = fastest_allowed(points, error);
   for (const CostPoint& point : points) {
     if (point.error <= error && point.setting != best->setting &&
         point.low <= (1 + kParetoTolerance) * best->high)
@@ -67,21 +67,21 @@ std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, dou
   return tied;
 }
 
-bool has_setting(const std::vector<CostPoint>& points, std::size_t setting) {
+bool has_point_of_setting(const std::vector<CostPoint>& points, std::size_t setting) {
   return std::ranges::any_of(points, [=](const CostPoint& p) { return p.setting == setting; });
 }
 
 std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
-    const CostPoint best = *fastest_within(points, (1 + kParetoTolerance) * point.error);
-    if (!has_setting(front, best.setting)) front.push_back(best);
+    const CostPoint best = *fastest_allowed(points, (1 + kParetoTolerance) * point.error);
+    if (!has_point_of_setting(front, best.setting)) front.push_back(best);
   }
   std::ranges::sort(front, [](const CostPoint& a, const CostPoint& b) { return a.time < b.time; });
   return front;
 }
 
-const std::vector<double>& target_errors() {
+const std::vector<double>& target_errors_of_report() {
   static const std::vector<double> errors = {0.05, 0.01, 1e-3, 1e-4, 1e-6};
   return errors;
 }
@@ -92,7 +92,7 @@ double compare_pareto_fronts(const std::vector<CostPoint>& a, const std::vector<
   const auto look = [&](double error) {
     // Settings whose errors differ by less than kParetoTolerance count as equally accurate.
     const double within = (1 + kParetoTolerance) * error;
-    const auto at_a = fastest_within(front_a, within), at_b = fastest_within(front_b, within);
+    const auto at_a = fastest_allowed(front_a, within), at_b = fastest_allowed(front_b, within);
     if (at_a && at_b) largest = std::max(largest, std::abs(std::log(at_a->time / at_b->time)));
   };
   for (const CostPoint& point : front_a) look(point.error);
@@ -109,7 +109,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   const std::vector<CostPoint> front = find_pareto_front(points);
   if (front.empty()) return "No setting could be measured.";
   const CostPoint& best = front.back();
-  const auto first = fastest_within(points, 0.01);
+  const auto first = fastest_allowed(points, 0.01);
   if (!first)
     return fmt::format("All errors exceed 1 %: the smallest is that of '{}', {}.",
                        titles[best.setting], error_text(best.error));
@@ -122,7 +122,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
     text += fmt::format(", taking as long as '{}'", titles[baseline]);
   if (!as_quick)
     text += fmt::format(", taking {} times as long as '{}'", times(first->time), titles[baseline]);
-  return text + describe_finest(*first, fastest_within(points, 1e-6), best, titles);
+  return text + describe_finest_setting(*first, fastest_allowed(points, 1e-6), best, titles);
 }
 
 }  // namespace trammel::harness

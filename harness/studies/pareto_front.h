@@ -28,11 +28,11 @@ inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 inline constexpr double kParetoTolerance = 0.05;
 
 /// Returns true if one of the points belongs to the setting with the index `setting`.
-[[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
+[[nodiscard]] bool has_point_of_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
 /// Returns the fastest point whose error is at most `error`; empty if there is none.
-[[nodiscard]] std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points,
-                                                      double error);
+[[nodiscard]] std::optional<CostPoint> fastest_allowed(const std::vector<CostPoint>& points,
+                                                       double error);
 
 /// Returns the settings with an error of at most `error` that are not significantly slower than the
 /// fastest of these settings: the confidence intervals of the times overlap, up to a gap of
@@ -45,7 +45,7 @@ inline constexpr double kParetoTolerance = 0.05;
 [[nodiscard]] std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points);
 
 /// Returns the target errors for which the report lists the fastest settings.
-[[nodiscard]] const std::vector<double>& target_errors();
+[[nodiscard]] const std::vector<double>& target_errors_of_report();
 
 /// Returns the largest relative difference between the times of two Pareto fronts for the same
 /// error, over all errors that both fronts reach. The fronts are two measurements of the same

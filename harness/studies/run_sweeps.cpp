@@ -9,7 +9,7 @@ namespace trammel::harness {
 namespace {
 
 /// Requires that refinement levels are ordered from coarse to fine, with positive element sizes.
-void check_levels(const JsonView& place, const std::vector<Level>& levels) {
+void require_ordered_levels(const JsonView& place, const std::vector<Level>& levels) {
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   double before = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<Sweep> run_sweep_levels(const Document& document, const References& 
   for (const auto& [name, place] : places->entries()) {
     Sweep sweep{name, {}};
     const std::vector<Level> found = sweep_levels(document, name);
-    check_levels(place, found);
+    require_ordered_levels(place, found);
     for (const Level& level : found)
       sweep.levels.push_back(
           {level.parameter, analyze(level.document, references, {false}).quantities});

@@ -46,7 +46,7 @@ std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonV
   return places;
 }
 
-double value_at(const Quantities& quantities, const Place& place) {
+double value_at_place(const Quantities& quantities, const Place& place) {
   const auto found = quantities.find(place.check->quantity);
   if (found == quantities.end() || place.index >= found->second.values.size()) return kNaN;
   return found->second.values[place.index];
@@ -71,7 +71,7 @@ bool is_number(const Document& document, const std::string& pointer) {
   return document.value().contains(at) && document.value().at(at).is_number();
 }
 
-std::vector<UncertainInput> read_inputs(const JsonView& place, const References& references) {
+std::vector<UncertainInput> read_input_list(const JsonView& place, const References& references) {
   std::vector<UncertainInput> inputs;
   const Document& document = place.document();
   for (const auto& [name, entry] : place.entries()) {
@@ -129,7 +129,7 @@ class ValidationStudy {
     entry.unit = place.reference->unit;
     entry.reference = place.reference->id;
     entry.index = static_cast<int>(place.index);
-    entry.simulation = value_at(quantities_, place);
+    entry.simulation = value_at_place(quantities_, place);
     entry.expected = place.reference->values[place.reference_index];
     entry.u_reference = place.reference->uncertainty[place.reference_index] / std::sqrt(3.0);
     for (const Place& other : places_) {
@@ -148,7 +148,7 @@ class ValidationStudy {
       if (!result.outcome.solved()) return std::nullopt;
       std::vector<double> values;
       for (const Place& place : places_) {
-        values.push_back(value_at(result.quantities, place));
+        values.push_back(value_at_place(result.quantities, place));
         if (!std::isfinite(values.back())) return std::nullopt;
       }
       return values;
@@ -164,7 +164,7 @@ class ValidationStudy {
       const double half_width =
           found == nullptr
               ? 0  // no discretization error
-              : found->error_half_width(places_[i].index, value_at(quantities_, places_[i]))
+              : found->error_half_width(places_[i].index, value_at_place(quantities_, places_[i]))
                     .value_or(kNaN);
       study_.comparisons[i].u_num = half_width / kGciToStandard;
     }
@@ -260,7 +260,7 @@ class ValidationStudy {
 
 std::vector<results::UncertainInput> uncertain_inputs(const Document& document,
                                                       const References& references) {
-  return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
+  return read_input_list(JsonView(document)["uncertainty"]["inputs"], references);
 }
 
 std::optional<results::Uncertainty> evaluate_validation_uncertainty(

@@ -7,7 +7,7 @@ namespace trammel::references {
 
 namespace {
 
-Real characteristic(const BeamEnds& ends, const Real& b) {
+Real frequency_equation(const BeamEnds& ends, const Real& b) {
   const std::string& kind = ends.kind;
   const Real sech = 1 / cosh(b);
   const Real moment = sin(b) + cos(b) * tanh(b), force = cos(b) * tanh(b) - sin(b);
@@ -49,7 +49,7 @@ std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
 /// frequencies. Rows: deflection and rotation at both ends. Columns: the four solutions. For
 /// Timoshenko beams the deflection is F' - a F and the rotation (P + w^2/kG) F, where F is a
 /// potential. For Euler-Bernoulli beams F is the deflection, and F' + a F is its slope.
-Real characteristic(const Beam& beam, const Real& w) {
+Real frequency_equation(const Beam& beam, const Real& w) {
   const Real w2 = w * w;
   const auto P = exponents(beam, w2);
   Eigen::Matrix<Real, 4, 4> m;
@@ -91,14 +91,14 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
 }
 
 /// Returns dp/ds = 2 dp/dx of a polynomial p in x = 2 s - 1.
-Polynomial derivative(const Polynomial& p) {
+Polynomial polynomial_derivative(const Polynomial& p) {
   Polynomial d;
   for (std::size_t k = 1; k < p.size(); ++k) d.push_back(2 * Real(k) * p[k]);
   return d;
 }
 
 /// Returns the integral of a polynomial in x = 2 s - 1 over 0 <= s <= 1.
-Real integral(const Polynomial& p) {
+Real polynomial_integral(const Polynomial& p) {
   Real sum = 0;
   for (std::size_t k = 0; k < p.size(); k += 2) sum += p[k] / Real(k + 1);
   return sum;
@@ -119,13 +119,13 @@ RealVector ritz_periods(const Polynomial& depth, const Polynomial& width, std::s
   for (std::size_t k = 0; k < n; ++k) {
     shape[k].assign(k, Real(0));
     for (const double c : {0.25, 0.5, 0.25}) shape[k].push_back(c);  // s^2 = ((1 + x) / 2)^2
-    bend[k] = derivative(derivative(shape[k]));
+    bend[k] = polynomial_derivative(polynomial_derivative(shape[k]));
   }
   RealMatrix K(n, n), M(n, n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      K(i, j) = integral(I * bend[i] * bend[j]);
-      M(i, j) = integral(A * shape[i] * shape[j]);
+      K(i, j) = polynomial_integral(I * bend[i] * bend[j]);
+      M(i, j) = polynomial_integral(A * shape[i] * shape[j]);
     }
   }
   const Eigen::LLT<RealMatrix> stiffness(K), mass(M);
@@ -151,7 +151,7 @@ BeamEnds read_beam_ends(const Arguments& arguments) {
 }
 
 std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
-  return first_roots([&](const Real& b) { return characteristic(ends, b); }, Real("0.001"),
+  return first_roots([&](const Real& b) { return frequency_equation(ends, b); }, Real("0.001"),
                      Real("0.05"), count);
 }
 
@@ -200,7 +200,7 @@ std::vector<Real> exponential_beam_program(const Arguments& arguments) {
     beam.kG = arguments.positive("shear_coefficient") * e / (2 * (1 + arguments.number("nu")));
   }
   const Real scale = sqrt(e * beam.r2) / (beam.L * beam.L);
-  std::vector<Real> values = first_roots([&](const Real& w) { return characteristic(beam, w); },
+  std::vector<Real> values = first_roots([&](const Real& w) { return frequency_equation(beam, w); },
                                          scale, 2 * scale, arguments.natural_number("count"));
   for (Real& value : values) value /= 2 * pi<Real>();
   return values;

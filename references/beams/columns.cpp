@@ -22,7 +22,7 @@ namespace {
 ///
 /// A clamped-free column buckles under its own weight q per unit length at q L = (9/4) j^2 EI/L^2,
 /// with J_{-1/3}(j) = 0.
-Real end_load_function(const std::string& ends, const Real& x) {
+Real characteristic_function_of_end_load(const std::string& ends, const Real& x) {
   if (ends == "clamped-free") return cos(x);
   if (ends == "pinned-pinned") return sin(x);
   if (ends == "clamped-pinned") return sin(x) - x * cos(x);
@@ -170,7 +170,8 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
                          ? Real(9 * EI / (4 * L * L * L * arguments.positive("weight_N_per_m", 1)))
                          : Real(EI / (L * L));
   const auto characteristic = [&](const Real& x) {
-    return weight ? boost::math::cyl_bessel_j(Real(-1) / 3, x) : end_load_function(ends, x);
+    return weight ? boost::math::cyl_bessel_j(Real(-1) / 3, x)
+                  : characteristic_function_of_end_load(ends, x);
   };
   std::vector<Real> values =
       first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.natural_number("count"));

@@ -114,7 +114,7 @@ RealVector end_residual(const Chain& chain, const RealVector& unknown) {
 }
 
 template <class F>
-RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
+RealMatrix jacobian_by_differences(const F& f, RealVector at, Eigen::Index columns) {
   const RealVector value = f(at);
   RealMatrix J(value.size(), columns);
   for (Eigen::Index j = 0; j < columns; ++j) {
@@ -131,7 +131,8 @@ RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
 RealVector limit_point_residual(const Chain& chain, const RealVector& unknown) {
   RealVector value(4);
   value << end_residual(chain, unknown),
-      jacobian([&](const auto& u) { return end_residual(chain, u); }, unknown, 3).determinant();
+      jacobian_by_differences([&](const auto& u) { return end_residual(chain, u); }, unknown, 3)
+          .determinant();
   return value;
 }
 
@@ -140,7 +141,7 @@ template <class F>
 void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknown) {
   for (int iteration = 0; iteration < 40; ++iteration) {
     const RealVector value = f(unknown);
-    const RealMatrix J = jacobian(f, unknown, value.size());
+    const RealMatrix J = jacobian_by_differences(f, unknown, value.size());
     const RealVector correction =
         solve(J, value, "the equations of equilibrium are singular", Real(1e-60));
     if (!isfinite(correction.sum())) break;

@@ -77,7 +77,7 @@ T sum(const std::vector<Mode>& modes, double Mode::*share, const std::function<T
   return total;
 }
 
-double amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) {
+double response_amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) {
   return std::abs(sum<std::complex<double>>(modes, share, [w](const Mode& mode) {
     const double ratio = w / mode.w;
     return 1.0 / std::complex<double>(1 - ratio * ratio, 2 * mode.damping * ratio);
@@ -108,7 +108,7 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
 
 /// Returns the x between lo and hi at which f(x) is largest. Brent's method refines the grid point
 /// with the largest f.
-double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
+double find_maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
   const double step = (hi - lo) / grid;
   std::vector<double> values(grid + 1);
@@ -133,12 +133,13 @@ std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments) {
   const double first = all[0].w;
   const auto history = [&](double Mode::*share) -> std::function<double(double)> {
     if (response == "harmonic-peak")
-      return [&, share](double w) { return amplitude(all, share, w); };
+      return [&, share](double w) { return response_amplitude(all, share, w); };
     return [&, share](double t) { return step_response_sum(all, share, t); };
   };
   const auto peak_at = [&](double Mode::*share) {
-    if (response == "harmonic-peak") return maximizer(history(share), 0.9 * first, 1.1 * first, 40);
-    return maximizer(history(share), 0.2 * kPi / first, 1.8 * kPi / first, 400);
+    if (response == "harmonic-peak")
+      return find_maximizer(history(share), 0.9 * first, 1.1 * first, 40);
+    return find_maximizer(history(share), 0.2 * kPi / first, 1.8 * kPi / first, 400);
   };
   std::vector<Real> values;
   for (const std::string& output : arguments.texts("outputs")) {

@@ -40,7 +40,7 @@ using Tip = std::array<Real, 3>;
 
 /// Returns V'', V''' and U' at the tip of a rotating beam, for the solution that starts at the
 /// clamped hub with V'' = a, V''' = b and U' = c.
-Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
+Tip tip_of_series_solution(const RotatingBeam& beam, const Real& mu, const Tip& start) {
   const Real eta2 = beam.eta * beam.eta;
   const Real at_hub = Real(1) / 2 + beam.hub_ratio;  // tension over eta^2: at_hub - r x - x^2/2
   const Real m2 = beam.axial_ratio ? Real(mu * mu + eta2) : Real(mu * mu);
@@ -71,10 +71,10 @@ Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
 }
 
 Real characteristic(const RotatingBeam& beam, const Real& mu) {
-  const Tip a = tip_of_series(beam, mu, {1, 0, 0});
-  const Tip b = tip_of_series(beam, mu, {0, 1, 0});
+  const Tip a = tip_of_series_solution(beam, mu, {1, 0, 0});
+  const Tip b = tip_of_series_solution(beam, mu, {0, 1, 0});
   if (!beam.axial_ratio) return a[0] * b[1] - a[1] * b[0];
-  const Tip c = tip_of_series(beam, mu, {0, 0, 1});
+  const Tip c = tip_of_series_solution(beam, mu, {0, 0, 1});
   Eigen::Matrix<Real, 3, 3> m;
   m << a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2];
   return m.determinant();
@@ -98,7 +98,7 @@ std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
   return roots;
 }
 
-RotatingBeam read_plane(const Arguments& arguments) {
+RotatingBeam read_bending_plane(const Arguments& arguments) {
   RotatingBeam beam;
   beam.in_plane = arguments.choice("plane", "", {"flap", "lag"}) == "lag";
   return beam;
@@ -107,7 +107,7 @@ RotatingBeam read_plane(const Arguments& arguments) {
 }  // namespace
 
 std::vector<Real> rotating_beam_roots_program(const Arguments& arguments) {
-  RotatingBeam beam = read_plane(arguments);
+  RotatingBeam beam = read_bending_plane(arguments);
   beam.eta = arguments.not_negative("eta", 0);
   beam.hub_ratio = arguments.not_negative("hub_ratio", 0);
   if (arguments.has("axial_ratio")) beam.axial_ratio = arguments.positive("axial_ratio");
@@ -121,7 +121,7 @@ std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments) 
   const Real scale = arguments.positive("thickness_m") *
                      sqrt(arguments.positive("E_Pa") / (12 * arguments.positive("rho_kg_m3"))) /
                      (L * L);  // sqrt(EI / rho A L^4)
-  RotatingBeam beam = read_plane(arguments);
+  RotatingBeam beam = read_bending_plane(arguments);
   beam.eta = arguments.not_negative("angular_speed_rad_s", 0) / scale;
   beam.hub_ratio = arguments.not_negative("hub_radius_m", 0) / L;
   if (arguments.choice("axial", "rigid", {"rigid", "flexible"}) == "flexible" && beam.in_plane) {

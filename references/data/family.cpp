@@ -157,7 +157,7 @@ std::optional<std::string_view> find_member(const std::vector<JsonMember>& membe
   return member->value;
 }
 
-Json add_common_keys(const Json& common, Json reference) {
+Json merge_common_keys(const Json& common, Json reference) {
   for (const auto& [key, value] : common.items()) {
     Json& merged = reference[key];
     if (key == "derivation" && merged.is_object()) {
@@ -195,7 +195,7 @@ std::map<std::string, Json> read_family(const std::string& file) {
       if (!value.is_object() && key != "$schema")
         throw ReferenceError(file + ": /" + key + ": expected an object");
       if (is_reference_id(key))
-        family[key] = add_common_keys(json.value(std::string(kCommon), Json()), value);
+        family[key] = merge_common_keys(json.value(std::string(kCommon), Json()), value);
     }
   } catch (const Json::parse_error& error) {
     throw ReferenceError(file + ": not JSON at byte " + std::to_string(error.byte));

@@ -41,8 +41,8 @@ struct JsonMember {
 
 /// Adds the common keys of a family to a reference that lacks them. If both the common keys and the
 /// reference contain a derivation, the keys of the two derivations are merged.
-[[nodiscard]] nlohmann::json add_common_keys(const nlohmann::json& common,
-                                             nlohmann::json reference);
+[[nodiscard]] nlohmann::json merge_common_keys(const nlohmann::json& common,
+                                               nlohmann::json reference);
 
 /// Reads the references of a family file by id.
 /// @throws ReferenceError  if the file is not a JSON object of objects, or if a key is repeated.

@@ -29,7 +29,8 @@ bool is_name(const std::string& id) {
 }
 
 template <class T>
-T required(const Json& json, const std::string& place, const char* key, const char* expected) {
+T required_member(const Json& json, const std::string& place, const char* key,
+                  const char* expected) {
   const auto found = json.find(key);
   if (found == json.end()) fail(place, "", std::string("the key '") + key + "'");
   try {
@@ -40,8 +41,9 @@ T required(const Json& json, const std::string& place, const char* key, const ch
 }
 
 template <class T>
-T optional(const Json& json, const std::string& place, const char* key, const char* expected) {
-  return json.contains(key) ? required<T>(json, place, key, expected) : T{};
+T optional_member(const Json& json, const std::string& place, const char* key,
+                  const char* expected) {
+  return json.contains(key) ? required_member<T>(json, place, key, expected) : T{};
 }
 
 ReferenceKind parse_kind(const std::string& word, const std::string& place) {
@@ -132,21 +134,22 @@ Reference read_reference(const Json& json, const std::string& file, const std::s
   if (!is_name(id)) fail(place, "", "an id of letters, digits, '.', '_' and '-'");
   if (!json.is_object()) fail(place, "", "an object");
   const auto text = [&](const char* key) {
-    return required<std::string>(json, place, key, "text");
+    return required_member<std::string>(json, place, key, "text");
   };
   Reference read;
   read.id = id;
   read.title = text("title");
   read.kind = parse_kind(text("kind"), place);
   read.unit = text("unit");
-  read.values = required<std::vector<double>>(json, place, "values", "an array of numbers");
+  read.values = required_member<std::vector<double>>(json, place, "values", "an array of numbers");
   read.source = text("source");
   read.place = text("place");
-  read.printed = optional<std::vector<std::string>>(json, place, "printed", "an array of texts");
+  read.printed =
+      optional_member<std::vector<std::string>>(json, place, "printed", "an array of texts");
   for (const auto& [key, texts] :
        {std::pair("errata", &read.errata), {"ambiguities", &read.ambiguities}})
-    *texts = optional<std::vector<std::string>>(json, place, key, "an array of texts");
-  read.notes = optional<std::string>(json, place, "notes", "text");
+    *texts = optional_member<std::vector<std::string>>(json, place, key, "an array of texts");
+  read.notes = optional_member<std::string>(json, place, "notes", "text");
   if (json.contains("probabilities")) read.probabilities = json.at("probabilities").dump();
   if (json.contains("derivation"))
     read.derivation = describe_derivation(json.at("derivation"), place);

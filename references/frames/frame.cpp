@@ -7,7 +7,7 @@ namespace trammel::references {
 namespace {
 
 template <class Named>
-int find_name(const std::vector<Named>& items, const std::string& name) {
+int find_item_by_name(const std::vector<Named>& items, const std::string& name) {
   const auto found =
       std::ranges::find_if(items, [&](const Named& item) { return item.name == name; });
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
@@ -16,11 +16,11 @@ int find_name(const std::vector<Named>& items, const std::string& name) {
 }  // namespace
 
 int Frame::find_node(const std::string& name) const {
-  return find_name(nodes, name);
+  return find_item_by_name(nodes, name);
 }
 
 int Frame::find_member(const std::string& name) const {
-  return find_name(members, name);
+  return find_item_by_name(members, name);
 }
 
 MemberAxis member_axis(const Frame& frame, const FrameMember& member) {

@@ -56,7 +56,8 @@ Sections read_sections(const Arguments& model) {
 }
 
 /// Returns the indices of the nodes that object[key] names, as one name or a list of names.
-std::vector<int> nodes_at(const Frame& frame, const Arguments& object, const std::string& key) {
+std::vector<int> nodes_named_by_key(const Frame& frame, const Arguments& object,
+                                    const std::string& key) {
   const Json& names = object[key];
   std::vector<int> nodes;
   for (const Json& name : names.is_array() ? names : Json::array({names})) {
@@ -70,7 +71,7 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
                         const Arguments& object) {
   FrameMember member;
   member.name = name;
-  const std::vector<int> nodes = nodes_at(frame, object, "nodes");
+  const std::vector<int> nodes = nodes_named_by_key(frame, object, "nodes");
   if (nodes.size() != 2) object.fail("nodes", "expected two names of nodes");
   member.nodes = {nodes[0], nodes[1]};
   const auto section = sections.find(object.text("section"));
@@ -104,16 +105,16 @@ void read_members(const Arguments& model, Frame& frame) {
 
 void read_bodies(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(model, "rigid_bodies", {"reference", "nodes"}))
-    frame.bodies.push_back(
-        {nodes_at(frame, object, "reference")[0], nodes_at(frame, object, "nodes")});
+    frame.bodies.push_back({nodes_named_by_key(frame, object, "reference")[0],
+                            nodes_named_by_key(frame, object, "nodes")});
 }
 
 void read_masses(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] :
        objects_of(model, "point_masses", {"node", "mass_kg", "inertia_kg_m2", "offset_m"})) {
-    frame.masses.push_back({nodes_at(frame, object, "node")[0], object.not_negative("mass_kg", 0),
-                            object.not_negative("inertia_kg_m2", 0),
-                            object.point_or_origin("offset_m")});
+    frame.masses.push_back(
+        {nodes_named_by_key(frame, object, "node")[0], object.not_negative("mass_kg", 0),
+         object.not_negative("inertia_kg_m2", 0), object.point_or_origin("offset_m")});
   }
 }
 
@@ -121,7 +122,7 @@ void read_springs(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(
            model, "springs", {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"})) {
     FrameSpring spring;
-    const std::vector<int> nodes = nodes_at(frame, object, "nodes");
+    const std::vector<int> nodes = nodes_named_by_key(frame, object, "nodes");
     if (nodes.empty() || nodes.size() > 2)
       object.fail("nodes", "expected one or two names of nodes");
     std::ranges::copy(nodes, spring.nodes.begin());
@@ -148,8 +149,8 @@ void read_supports(const Arguments& model, Frame& frame) {
 void read_loads(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(model, "loads", {"node", "force_N", "moment_N_m"})) {
     const auto force = object.point_or_origin("force_N");
-    frame.loads.push_back(
-        {nodes_at(frame, object, "node")[0], {force[0], force[1], object.number("moment_N_m", 0)}});
+    frame.loads.push_back({nodes_named_by_key(frame, object, "node")[0],
+                           {force[0], force[1], object.number("moment_N_m", 0)}});
   }
 }
 

@@ -13,13 +13,13 @@ std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side)
 }
 
 /// Returns true if object[key], a mass or inertia, is a number, not "from-density" or "from-mass".
-bool is_given(const Arguments& object, const std::string& key) {
+bool is_given_number(const Arguments& object, const std::string& key) {
   return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
 }
 
 /// Returns the mass [kg] or inertia [kg m^2] object[key] if it is a number, otherwise `computed`.
-Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
-  return is_given(object, key) ? object.positive(key) : computed;
+Real given_or_computed(const Arguments& object, const std::string& key, const Real& computed) {
+  return is_given_number(object, key) ? object.positive(key) : computed;
 }
 
 /// Returns the arguments that describe the proximal or the distal links of a manipulator.
@@ -43,13 +43,13 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
       rectangular_section(material, links.positive("thickness_m"), links.positive("width_m"),
                           links.number("shear_coefficient", Real(5) / 6)),
       links);
-  result.mass = given_or(links, "mass_kg", result.section.mass * result.length);
+  result.mass = given_or_computed(links, "mass_kg", result.section.mass * result.length);
   const Real scale = result.mass / (result.section.mass * result.length);
   result.section.mass *= scale;
   result.section.rotary_inertia *= scale;
-  result.has_inertia = is_given(links, "inertia_kg_m2");
+  result.has_inertia = is_given_number(links, "inertia_kg_m2");
   result.inertia =
-      given_or(links, "inertia_kg_m2", result.mass * result.length * result.length / 12);
+      given_or_computed(links, "inertia_kg_m2", result.mass * result.length * result.length / 12);
   return result;
 }
 
@@ -76,21 +76,22 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
       read_material(manipulator,
                     manipulator.has("platform_material") ? "platform_material" : "material")
           .rho;
-  const Real mass = given_or(platform, "mass_kg", area * platform.positive("thickness_m") * rho);
+  const Real mass =
+      given_or_computed(platform, "mass_kg", area * platform.positive("thickness_m") * rho);
   const Real steiner = mass * (center[0] * center[0] + center[1] * center[1]);
   result.platform_mass = mass;
   result.platform_inertia =
-      given_or(platform, "inertia_kg_m2", mass * squares / 12 + steiner) - steiner;
+      given_or_computed(platform, "inertia_kg_m2", mass * squares / 12 + steiner) - steiner;
 }
 
-FrameEnd member_end(const Arguments& joints, const std::string& key) {
+FrameEnd member_end_of_joint(const Arguments& joints, const std::string& key) {
   const bool constrained = joints[key] == "eq25-mean" || joints[key] == "eq25-sum";
   return read_end_fixity(constrained ? Json("hinged") : joints[key], joints, key);
 }
 
 /// Adds the constraint of Eq. 25 of Varalakshmi and Srinivas (2017): the rotation of the platform
 /// is the mean (or, as printed, the sum) of the rotations of the link ends.
-void add_eq25(const Arguments& joints, Frame& frame) {
+void add_constraint_of_eq25(const Arguments& joints, Frame& frame) {
   const Json& platform = joints["platform"];
   if (platform != "eq25-mean" && platform != "eq25-sum") return;
   const Real share = platform == "eq25-mean" ? Real(1) / 3 : Real(1);
@@ -111,10 +112,11 @@ void add_links(const ManipulatorNumbers& numbers, const Arguments& joints, Frame
       member.nodes = {frame.find_node(from), frame.find_node(to)};
       member.section = link.section;
       if (proximal) {
-        member.ends[0] = member_end(joints, "active");
-        if (joints["elbow"] == "hinged") member.ends[1] = member_end(joints, "elbow");
+        member.ends[0] = member_end_of_joint(joints, "active");
+        if (joints["elbow"] == "hinged") member.ends[1] = member_end_of_joint(joints, "elbow");
       } else {
-        member.ends = {member_end(joints, "elbow"), member_end(joints, "platform")};
+        member.ends = {member_end_of_joint(joints, "elbow"),
+                       member_end_of_joint(joints, "platform")};
       }
       if (link.has_inertia)
         for (FrameEnd& end : member.ends) end.inertia = link.inertia / 2;
@@ -182,7 +184,7 @@ Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
       {at, numbers.platform_mass, numbers.platform_inertia, rotated(numbers.platform_center, phi)});
   frame.bodies.push_back(
       {at, {frame.find_node("C1"), frame.find_node("C2"), frame.find_node("C3")}});
-  add_eq25(joints, frame);
+  add_constraint_of_eq25(joints, frame);
   for (const char* base : {"A1", "A2", "A3"})
     frame.supports.push_back({frame.find_node(base), {true, true, true}});
   return frame;

@@ -90,7 +90,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
   }
 }
 
-Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
+Equations force_method_equations(const Frame& frame, const FrameCoordinates& coordinates) {
   const std::vector<SpringElement> springs = coordinates.springs(frame);
   const std::size_t forces = 3 * frame.members.size() + springs.size();
   const std::size_t n = coordinates.coordinate_count();
@@ -188,7 +188,7 @@ Values outputs(const Frame& frame) {
 
 FrameStatics force_method_statics(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
-  const Equations e = equations(frame, coordinates);
+  const Equations e = force_method_equations(frame, coordinates);
   const RealVector x = minimize_complementary_energy(e, coordinates.N());
   const RealVector f = x.head(e.Phi.rows());
 

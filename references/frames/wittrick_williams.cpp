@@ -89,7 +89,7 @@ Frame frame_with_axial_forces(Frame frame) {
 
 /// Returns approximately the smallest load factor at which a member with pinned ends buckles. The
 /// factor pi^2 is rounded to 10.
-Real buckling_scale(const Frame& frame) {
+Real estimated_buckling_factor(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
     const Real L = member_axis(frame, member).length;
@@ -188,7 +188,7 @@ FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   return result;
 }
 
-int count_lower_frequencies(const Frame& frame, const Real& frequency) {
+int count_frequencies_below(const Frame& frame, const Real& frequency) {
   return DynamicStiffness<Real>(frame).wittrick_williams(2 * pi<Real>() * frequency).below;
 }
 
@@ -198,7 +198,7 @@ std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
 }
 
 std::vector<Real> frame_frequency_count_program(const Arguments& arguments) {
-  return {count_lower_frequencies(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
+  return {count_frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
 }
 
 std::vector<Real> frame_buckling_program(const Arguments& arguments) {
@@ -207,9 +207,9 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const DynamicStiffness<Real> fine(frame);
   const Real w = frequency_order_of_magnitude(frame) * Real(1e-11);  // shifts load factors by 1e-22
   const auto coarse_w = static_cast<double>(frequency_order_of_magnitude(frame)) * 1e-3;
-  if (fine.wittrick_williams(w, Real(1e-6) * buckling_scale(frame)).below > 0)
+  if (fine.wittrick_williams(w, Real(1e-6) * estimated_buckling_factor(frame)).below > 0)
     throw DerivationError("the frame can move freely");
-  const auto scale = static_cast<double>(buckling_scale(frame));
+  const auto scale = static_cast<double>(estimated_buckling_factor(frame));
   return counted_roots(
       {[&](double factor) { return coarse.wittrick_williams(coarse_w, factor).below; },
        [&](const Real& factor) { return fine.wittrick_williams(w, factor); }, 1e-4 * scale, scale},

@@ -41,7 +41,7 @@ struct FrameFrequencies {
 [[nodiscard]] Real frequency_order_of_magnitude(const Frame& frame);
 
 /// Returns the number of natural frequencies below `frequency` [Hz], including rigid motions.
-[[nodiscard]] int count_lower_frequencies(const Frame& frame, const Real& frequency);
+[[nodiscard]] int count_frequencies_below(const Frame& frame, const Real& frequency);
 
 /// Computes the first `count` elastic natural frequencies of a frame [Hz].
 [[nodiscard]] std::vector<Real> frame_frequencies_program(const Arguments& arguments);

@@ -117,7 +117,7 @@ struct Search {
   }
 };
 
-std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
+std::vector<Real> zeros_of_polynomial(const Arguments& arguments, const Limbs& limbs) {
   constexpr int kPoints = 64;
   const Real h = 2 * pi<Real>() / kPoints;
   Real largest = 0;
@@ -132,7 +132,7 @@ std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
 
 std::vector<Real> assembly_modes_program(const Arguments& arguments) {
   const Limbs limbs = read_limbs(arguments);
-  const std::vector<Real> zeros = all_zeros(arguments, limbs);
+  const std::vector<Real> zeros = zeros_of_polynomial(arguments, limbs);
   if (arguments.choice("output", "", {"count", "poses"}) == "count") return {Real(zeros.size())};
   std::vector<Real> poses;
   for (const Real& phi : zeros) {

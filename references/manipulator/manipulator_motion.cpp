@@ -147,9 +147,9 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
 
 /// Computes the motion under constant torques at given times, with 16 integration steps between
 /// successive times.
-std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
-                                   const std::vector<Real>& torque, const Motion& start,
-                                   const std::vector<Real>& times) {
+std::vector<Motion> motions_under_torques(const ManipulatorNumbers& m, const PlanarWrench& wrench,
+                                          const std::vector<Real>& torque, const Motion& start,
+                                          const std::vector<Real>& times) {
   using State = std::array<Real, 6>;  // x, y, phi of the platform and their rates
   State state;
   for (int c = 0; c < 3; ++c) {
@@ -175,8 +175,8 @@ std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWren
 
 /// Integrates |power| of the actuators over one turn of the circular path, between zeros of the
 /// power.
-Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
-                   const PlanarWrench& wrench) {
+Real absolute_work_of_one_turn(const ManipulatorNumbers& m, const Arguments& trajectory,
+                               const PlanarWrench& wrench) {
   const Arguments circle(trajectory["circle"], "/trajectory/circle");
   const Real period = 2 * pi<Real>() / abs(circle.number("angular_speed_rad_s", 1));
   const auto power = [&](const Real& t) {
@@ -205,12 +205,12 @@ std::vector<Real> manipulator_motion_program(const Arguments& arguments) {
   const Arguments trajectory = trajectory_arguments(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");
   if (outputs.front() == "cycle_absolute_work_J")
-    return {absolute_work(manipulator, trajectory, wrench)};
+    return {absolute_work_of_one_turn(manipulator, trajectory, wrench)};
   const std::vector<Real> times = arguments.numbers("times_s");
   std::vector<Motion> motions;
   if (arguments.has("torque_N_m")) {
-    motions = driven_motions(manipulator, wrench, arguments.numbers("torque_N_m", 3),
-                             platform_motion(trajectory, 0), times);
+    motions = motions_under_torques(manipulator, wrench, arguments.numbers("torque_N_m", 3),
+                                    platform_motion(trajectory, 0), times);
   } else {
     for (const Real& time : times) motions.push_back(platform_motion(trajectory, time));
   }

@@ -7,7 +7,7 @@ namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
 
-Motion on_circle(const Arguments& circle, const Jet<Real>& t) {
+Motion motion_on_circle(const Arguments& circle, const Jet<Real>& t) {
   const std::vector<Real> center = circle.numbers("center_m", 2);
   const Real radius = circle.positive("radius_m");
   const Jet<Real> s = circle.number("angular_speed_rad_s", 1) * t;
@@ -26,7 +26,7 @@ Motion interpolate_poses(const Arguments& line, const Jet<Real>& share) {
   return motion;
 }
 
-Motion from_rest_to_rest(const Arguments& line, const Jet<Real>& t) {
+Motion motion_from_rest_to_rest(const Arguments& line, const Jet<Real>& t) {
   const Jet<Real> u = t / line.positive("duration_s");
   if (!(u.value > 0)) return interpolate_poses(line, 0);
   if (!(u.value < 1)) return interpolate_poses(line, 1);
@@ -90,7 +90,7 @@ RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const 
   return solve(A, b, "the conditions of the spline are singular");
 }
 
-Motion on_spline(const Arguments& spline, const Jet<Real>& t) {
+Motion motion_on_spline(const Arguments& spline, const Jet<Real>& t) {
   const Knots knots = read_knots(spline);
   const std::string ends = spline.choice("ends", "natural", {"natural", "at-rest", "periodic"});
   std::size_t k = 0;
@@ -117,15 +117,15 @@ Motion platform_motion(const Arguments& trajectory, const Real& time) {
     return Arguments(trajectory[key], trajectory.pointer(key), known);
   };
   if (trajectory.has("circle"))
-    return on_circle(section("circle", {"center_m", "radius_m", "angular_speed_rad_s", "phi_rad"}),
-                     t);
+    return motion_on_circle(
+        section("circle", {"center_m", "radius_m", "angular_speed_rad_s", "phi_rad"}), t);
   if (trajectory.has("line")) {
     const Arguments line = section("line", {"from", "to", "duration_s"});
     return interpolate_poses(line, t / line.positive("duration_s"));
   }
   if (trajectory.has("rest_to_rest"))
-    return from_rest_to_rest(section("rest_to_rest", {"from", "to", "duration_s"}), t);
-  return on_spline(section("spline", {"knots", "ends"}), t);
+    return motion_from_rest_to_rest(section("rest_to_rest", {"from", "to", "duration_s"}), t);
+  return motion_on_spline(section("spline", {"knots", "ends"}), t);
 }
 
 }  // namespace trammel::references

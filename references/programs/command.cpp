@@ -13,7 +13,7 @@ namespace trammel::references {
 
 namespace {
 
-std::string in_column(double value, int width, int digits) {
+std::string number_in_column(double value, int width, int digits) {
   std::ostringstream text;
   text << std::setw(width) << std::setprecision(digits) << value;
   return text.str();
@@ -26,7 +26,8 @@ int run_program(const std::string& name, const std::string& text, bool proving, 
     for (const std::string& digits : prove(name, arguments)) out << digits << "\n";
     return 0;
   }
-  for (const double value : derive_values(name, arguments)) out << in_column(value, 0, 17) << "\n";
+  for (const double value : derive_values(name, arguments))
+    out << number_in_column(value, 0, 17) << "\n";
   return 0;
 }
 
@@ -36,9 +37,10 @@ void print_values(const Comparison& comparison, std::ostream& out) {
       << "\n";
   for (std::size_t i = 0; i < comparison.stored.size(); ++i) {
     const double derived = i < comparison.derived.size() ? comparison.derived[i] : NAN;
-    out << "  " << in_column(comparison.stored[i], 24, 17) << in_column(derived, 25, 17)
-        << in_column(derived - comparison.stored[i], 12, 2)
-        << in_column(comparison.uncertainty[i], 13, 3) << "\n";
+    out << "  " << number_in_column(comparison.stored[i], 24, 17)
+        << number_in_column(derived, 25, 17)
+        << number_in_column(derived - comparison.stored[i], 12, 2)
+        << number_in_column(comparison.uncertainty[i], 13, 3) << "\n";
   }
   if (comparison.derived.size() > comparison.stored.size())
     out << "  " << comparison.derived.size() - comparison.stored.size()
@@ -46,7 +48,7 @@ void print_values(const Comparison& comparison, std::ostream& out) {
 }
 
 /// Prints the values of a proved reference whose stored digits differ from the proved digits.
-void print_proved(const Comparison& comparison, std::ostream& out) {
+void print_proved_digits(const Comparison& comparison, std::ostream& out) {
   const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
   if (stored.empty()) return;
   if (stored == proved) out << "  all digits stored are proved\n";
@@ -66,7 +68,7 @@ bool print_comparison(const Comparison& comparison, std::ostream& out) {
   }
   out << " by " << comparison.program << "\n";
   print_values(comparison, out);
-  print_proved(comparison, out);
+  print_proved_digits(comparison, out);
   out << "  " << (comparison.within_uncertainty() ? "confirmed" : "NOT CONFIRMED") << "\n";
   return comparison.within_uncertainty();
 }

@@ -12,8 +12,8 @@ namespace trammel::references {
 
 namespace {
 
-Json with_value(Json arguments, const std::vector<std::string>& pointers, const Json& value,
-                const Arguments& where) {
+Json replace_argument_value(Json arguments, const std::vector<std::string>& pointers,
+                            const Json& value, const Arguments& where) {
   for (const std::string& pointer : pointers) {
     try {
       arguments.at(Json::json_pointer(pointer)) = value;
@@ -34,7 +34,7 @@ std::vector<std::string> argument_names(const std::string& program) {
   return {std::sregex_token_iterator(line.begin(), line.end(), name), {}};
 }
 
-const Program& program_of(const std::string& name) {
+const Program& program_with_name(const std::string& name) {
   const auto found = programs().find(name);
   if (found != programs().end()) return found->second;
   std::string names;
@@ -43,7 +43,7 @@ const Program& program_of(const std::string& name) {
 }
 
 std::vector<Real> run_program(const std::string& program, const Json& arguments) {
-  return program_of(program).run(Arguments(arguments, "", argument_names(program)));
+  return program_with_name(program).run(Arguments(arguments, "", argument_names(program)));
 }
 
 /// Runs another program at each value of a parameter, for the exact results of a parameter study.
@@ -61,7 +61,7 @@ std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
   } else {
     const std::vector<std::string> pointers = arguments.texts("pointers");
     for (const Json& value : arguments["values"])
-      levels.push_back(with_value(arguments["arguments"], pointers, value, arguments));
+      levels.push_back(replace_argument_value(arguments["arguments"], pointers, value, arguments));
   }
   std::vector<Real> values;
   for (const Json& level : levels) {
@@ -119,7 +119,7 @@ std::vector<double> derive_values(const std::string& program, const Json& argume
 }
 
 std::vector<std::string> prove(const std::string& program, const Json& arguments) {
-  const Program& found = program_of(program);
+  const Program& found = program_with_name(program);
   if (!found.prove) throw DerivationError("the program '" + program + "' has no proof");
   return found.prove(Arguments(arguments, "", argument_names(program)));
 }

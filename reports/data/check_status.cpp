@@ -6,7 +6,7 @@
 
 namespace trammel::reports {
 
-const StatusStyle& style_of(CheckStatus status) {
+const StatusStyle& find_style(CheckStatus status) {
   return *std::ranges::find(kStatusStyles, status, &StatusStyle::status);
 }
 
@@ -15,7 +15,7 @@ bool is_failure(CheckStatus status) {
          status == CheckStatus::error;
 }
 
-CheckStatus check_status(const Check& check) {
+CheckStatus find_status(const Check& check) {
   switch (check.verdict) {
     case Verdict::pass:
       return check.is_known_discrepancy() ? CheckStatus::known_discrepancy : CheckStatus::passes;
@@ -33,7 +33,7 @@ CheckStatus check_status(const Check& check) {
   throw std::logic_error("unknown verdict");
 }
 
-CheckStatus check_status(const Run& run) {
+CheckStatus find_status(const Run& run) {
   const bool expected = !run.checks.empty() && std::ranges::all_of(run.checks, [](const Check& c) {
     return c.verdict == Verdict::pass;
   });
@@ -77,7 +77,7 @@ std::size_t total(const Counts& counts) {
 }
 
 void add_check_counts(Counts& counts, const Run& run) {
-  for (const CheckGroup& group : group_checks(run)) ++counts[check_status(group.worst())];
+  for (const CheckGroup& group : group_checks(run)) ++counts[find_status(group.worst())];
 }
 
 bool all_checks_pass(const Counts& counts) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxTargetDigits = 8;  ///< largest number of digits of a target
 
-std::string with_unit(const std::string& number, const std::string& unit) {
+std::string number_with_unit(const std::string& number, const std::string& unit) {
   const std::string symbol = display_unit(unit);
   return symbol.empty() ? number : number + "\u202f" + symbol;
 }
@@ -46,7 +46,7 @@ std::string statistic_text(const std::string& statistic) {
   }};
   for (const auto& [key, text_of_key] : words)
     if (statistic == key) return text_of_key;
-  return separators_to_spaces(statistic);
+  return replace_separators(statistic);
 }
 
 /// Returns the number of significant digits that a ratio requires so that its text differs from
@@ -60,14 +60,14 @@ int digits_of_ratio(double ratio) {
 std::string measured_text(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return percent_text(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, digits_of_ratio(x));
-  const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
+  const std::string number = sign ? number_with_sign(x, 3) : trimmed(x, 4);
   const bool plain = check.measure == "order" || check.measure == "leading-term";
-  return plain ? number : with_unit(number, check.unit);
+  return plain ? number : number_with_unit(number, check.unit);
 }
 
 std::string bound_text(const Check& check) {
   const Tolerance& t = *check.tolerance;
-  const auto limit = [&](double x) { return with_unit(trimmed(x, 4), check.unit); };
+  const auto limit = [&](double x) { return number_with_unit(trimmed(x, 4), check.unit); };
   if (t.low && t.high && *t.low == *t.high) return limit(*t.low);
   if (t.low && t.high) return trimmed(*t.low, 4) + " to " + limit(*t.high);
   if (t.high) return "≤ " + limit(*t.high);
@@ -90,8 +90,8 @@ std::string target_text(const Check& check) {
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A target with at most kMaxTargetDigits digits is shown with all digits.
   const int digits = count_digits(shortest_decimal(*check.expected));
-  if (digits <= kMaxTargetDigits) return significant(*check.expected, digits);
-  return significant(*check.expected, digits_of_check(check));
+  if (digits <= kMaxTargetDigits) return rounded_text(*check.expected, digits);
+  return rounded_text(*check.expected, digits_of_check(check));
 }
 
 std::string computed_text(const Check& check) {
@@ -101,7 +101,7 @@ std::string computed_text(const Check& check) {
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
-  return significant(x, digits_of_check(check));
+  return rounded_text(x, digits_of_check(check));
 }
 
 std::string difference_text(const Check& check, double difference) {
@@ -187,7 +187,7 @@ std::string work_counters_text(const Counters& counters) {
     std::string digits = std::to_string(n);
     for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
       digits.insert(static_cast<std::size_t>(place), "\u202f");
-    add_item(text, digits + " " + separators_to_spaces(name));
+    add_item(text, digits + " " + replace_separators(name));
   }
   return text;
 }

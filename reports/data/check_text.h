@@ -43,17 +43,17 @@ inline constexpr std::array<StatusStyle, 8> kStatusStyles = {{
 }};
 static_assert(kStatusStyles.back().status == static_cast<CheckStatus>(kStatusStyles.size() - 1));
 static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
-[[nodiscard]] const StatusStyle& style_of(CheckStatus status);
+[[nodiscard]] const StatusStyle& find_style(CheckStatus status);
 
 /// Returns true if a check fails, ends with an error, or has a known discrepancy outside its
 /// recorded range.
 [[nodiscard]] bool is_failure(CheckStatus status);
-[[nodiscard]] CheckStatus check_status(const Check& check);
+[[nodiscard]] CheckStatus find_status(const Check& check);
 
 /// Returns the status of the run of a case from the status of its solution: solved, singular
 /// matrix, no convergence or error. A run with a singular matrix or without convergence passes if
 /// it has checks and all its checks pass. Its case then expects this status.
-[[nodiscard]] CheckStatus check_status(const Run& run);
+[[nodiscard]] CheckStatus find_status(const Run& run);
 
 /// Number of checks with each status.
 using Counts = std::map<CheckStatus, std::size_t>;

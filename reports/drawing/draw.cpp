@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// Returns the gnuplot settings that all figures share. Gnuplot prints texts without interpreting
 /// markup (noenhanced).
-std::string preamble(const Figure& figure, const fs::path& svg) {
+std::string plot_header(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
   out << "reset session\n"
       << "set encoding utf8\nset minussign\n"
@@ -83,7 +83,7 @@ fs::path svg_path(const fs::path& folder, const Figure& figure) {
 /// texts.
 std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
   const std::string all =
-      program + preamble(figure, "/") + figure.commands + figure.title + figure.alt + svg;
+      program + plot_header(figure, "/") + figure.commands + figure.title + figure.alt + svg;
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet "
          "href=\"figure.css\"?>\n<!-- " +
          std::to_string(std::hash<std::string>{}(all)) + " -->\n";
@@ -118,7 +118,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     std::size_t number = 0;
     for (const Figure* figure : figures)
       both[number++ % 2]
-          << preamble(*figure, svg_path(folder, *figure)) << figure->commands << "unset output\n"
+          << plot_header(*figure, svg_path(folder, *figure)) << figure->commands << "unset output\n"
           << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
           << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
              "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";

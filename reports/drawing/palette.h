@@ -29,10 +29,10 @@ inline constexpr std::array<const char*, 7> kSequence = {"#e3edf7", "#c3d9ee", "
 inline constexpr std::array<int, 7> kFilledPoint = {7, 5, 9, 13, 11, 15, 7};
 inline constexpr std::array<int, 7> kOpenPoint = {6, 4, 8, 12, 10, 14, 6};
 
-[[nodiscard]] inline std::string filled_point(std::size_t i) {
+[[nodiscard]] inline std::string filled_marker(std::size_t i) {
   return std::to_string(kFilledPoint[i % kFilledPoint.size()]);
 }
-[[nodiscard]] inline std::string open_point(std::size_t i) {
+[[nodiscard]] inline std::string open_marker(std::size_t i) {
   return std::to_string(kOpenPoint[i % kOpenPoint.size()]);
 }
 [[nodiscard]] inline const char* color(std::size_t i) {

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxKeyCharacters = 38;  ///< longer titles do not fit int
 
 /// Returns the numbers of a data row as text for gnuplot. If a number is not finite, the text is
 /// empty, which interrupts the curve.
-std::string row_text(const std::vector<double>& row) {
+std::string data_row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {
     if (!std::isfinite(x)) return "";
@@ -87,7 +87,7 @@ void PlotScript::curve(const Rows& rows, const std::string& style, const std::st
   if (rows.empty()) return;
   const std::string block = "$d" + std::to_string(blocks_++);
   command(block + " << EOD");
-  for (const auto& row : rows) command(row_text(row));
+  for (const auto& row : rows) command(data_row_text(row));
   command("EOD");
   curves_.push_back(block + " " + style + titled(title));
 }

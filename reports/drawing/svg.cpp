@@ -58,7 +58,7 @@ constexpr const char* kCommonAttributes =
 
 /// Simplifies the lines of an SVG path and rounds coordinates to 0.1 px. Lines of a single point
 /// are omitted.
-std::string short_path(const std::string& path) {
+std::string simplify_svg_path(const std::string& path) {
   using Line = boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>>;
   std::string out;
   Line line;
@@ -92,11 +92,11 @@ void shorten_paths(std::string& text) {
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
     at += open.size();
     const std::size_t length = text.find('\'', at) - at;
-    text.replace(at, length, short_path(text.substr(at, length)));
+    text.replace(at, length, simplify_svg_path(text.substr(at, length)));
   }
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
@@ -109,13 +109,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// Removes empty groups (<g> elements) from an SVG drawing. For groups without attributes, removes
 /// the tags and keeps the content.
-std::string without_idle_groups(std::string text) {
+std::string remove_idle_svg_groups(std::string text) {
   replace_all(text, "<g", "\n<g");
   replace_all(text, "</g>", "\n</g>\n");
   constexpr auto kNoTag = std::string::npos;
   std::vector<std::string> kept;
   std::vector<std::size_t> groups;  // indices in `kept` of the open <g> tags
-  for (std::string& line : lines_of(text)) {
+  for (std::string& line : split_lines(text)) {
     const bool closes = line == "</g>";
     const std::size_t start = closes && !groups.empty() ? groups.back() : kNoTag;
     if (closes && !groups.empty()) groups.pop_back();
@@ -134,7 +134,7 @@ std::string without_idle_groups(std::string text) {
 /// Returns the SVG definitions of the symbols that `body` uses directly or through other symbols.
 /// Each symbol is defined before the symbols that use it.
 std::string symbols(const std::string& definitions, const std::string& body) {
-  const std::vector<std::string> lines = lines_of(definitions);
+  const std::vector<std::string> lines = split_lines(definitions);
   std::string used;
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     const std::size_t at = line->find("id='");
@@ -164,7 +164,7 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   shorten_colors(body);
   for (const std::string& common : words_in(kCommonAttributes)) replace_all(body, " " + common, "");
   shorten_paths(body);
-  body = without_idle_groups(std::move(body));
+  body = remove_idle_svg_groups(std::move(body));
   body = symbols(definitions, body) + body;
   const std::string own = "p" + std::to_string(std::hash<std::string>{}(id) % 1000000000) + "-";
   replace_all(body, "xlink:href='#gp", "href='#" + own);

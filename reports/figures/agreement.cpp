@@ -71,14 +71,14 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
       points.push_back({entry - 0.12 - 0.1 * static_cast<double>(r), *check->expected});
       if (r == 0) computed.push_back({entry + 0.12, *check->computed, band});
       differences.cover(check->difference);
-      reproduced += check_status(*check) == CheckStatus::passes ? 1 : 0;
+      reproduced += find_status(*check) == CheckStatus::passes ? 1 : 0;
       last = std::max(last, *check->index + 1);
       table.rows.push_back({title, entry, *check->expected, *check->computed, band});
     }
-    script.curve(
-        points,
-        "with points ps 1.2 pt " + palette::open_point(r + 1) + " lw 2" + lc(palette::color(r + 1)),
-        title);
+    script.curve(points,
+                 "with points ps 1.2 pt " + palette::open_marker(r + 1) + " lw 2" +
+                     lc(palette::color(r + 1)),
+                 title);
     titles.push_back(title);
   }
   script.curve(computed, "with yerrorbars ps 1 pt 7 lw 2" + lc(palette::color(0)), "computed");
@@ -94,7 +94,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
       "Printed values, and computed values with their expanded uncertainty (discretization and "
       "inputs). The computed values differ from the printed ones (" +
       titles.front().substr(0, titles.front().find_first_of(":,")) + ") by " +
-      low_to_high(percent_text(differences.low, 3, true), percent_text(differences.high, 3, true)) +
+      limits_text(percent_text(differences.low, 3, true), percent_text(differences.high, 3, true)) +
       ". " + std::to_string(reproduced) + " of " + count(table.rows.size(), "printed value") +
       " are reproduced.";
   return Figure{.id = slug(info.id + "-" + run.variant + "-agreement"),

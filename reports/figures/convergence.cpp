@@ -22,7 +22,7 @@ using Sweeps = std::vector<const Convergence*>;
 
 /// Returns the relative errors of the computed values at all refinement levels. The errors are
 /// differences from the exact value or, without one, from the Richardson-extrapolated value.
-Numbers errors_of(const Convergence& c) {
+Numbers errors_of_levels(const Convergence& c) {
   Numbers errors = c.error;
   const bool given = std::ranges::any_of(errors, &Number::has_value);
   if (given || !c.richardson || *c.richardson == 0) return errors;
@@ -52,13 +52,13 @@ PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
 std::string series_title(const Convergence& c, bool alone) {
   std::string title = c.quantity.starts_with("frequency") ? "mode " : "entry ";
   title = alone ? to_text(parse_quantity(c.quantity)) : title + std::to_string(c.index + 1);
-  if (c.fitted_order) title += ": " + significant(*c.fitted_order, 3);
+  if (c.fitted_order) title += ": " + rounded_text(*c.fitted_order, 3);
   return title;
 }
 
 void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool alone,
                  Interval& extent) {
-  const Numbers errors = errors_of(c);
+  const Numbers errors = errors_of_levels(c);
   PlotScript::Rows line, inside;
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (!errors[k]) continue;
@@ -68,7 +68,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
-  const std::string style = palette::open_point(i), solid = palette::filled_point(i);
+  const std::string style = palette::open_marker(i), solid = palette::filled_marker(i);
   script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
   script.curve(inside, "with points ps 0.8 pt " + solid + color);
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
@@ -79,7 +79,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   PlotScript::Rows line;
   for (const Convergence* c : sweeps) {
-    const Numbers errors = errors_of(*c);
+    const Numbers errors = errors_of_levels(*c);
     const bool falls = errors.front().value_or(0) > errors.back().value_or(0);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       if (!errors[k] || !c->in_asymptotic_range[k]) continue;
@@ -95,7 +95,7 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
 
 /// Returns a sentence on the fitted and the theoretical order of convergence. If the theoretical
 /// error is a h^p + b h^q, the sentence states the misfit of this two-term law instead.
-std::string conclusion(const Sweeps& sweeps) {
+std::string order_summary(const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool mixed = first.lower_order && first.theory_order;
   Interval orders;
@@ -123,18 +123,18 @@ std::string conclusion(const Sweeps& sweeps) {
            trimmed(*first.lower_order, 3) + ", with the mesh or step size h, within " +
            reports::percent_text(misfit, 2, false) + ".";
   return which + (fitted == 1 ? " falls" : " fall") + " with order " +
-         low_to_high(significant(orders.low, 3), significant(orders.high, 3)) +
+         limits_text(rounded_text(orders.low, 3), rounded_text(orders.high, 3)) +
          (first.theory_order ? "; theory: " + trimmed(*first.theory_order, 3) : "") + ".";
 }
 
-Table table_of(const Sweeps& sweeps) {
+Table table_of_sweeps(const Sweeps& sweeps) {
   Table table;
   table.heads = {sweeps.front()->sweep,    "index",
                  sweeps.front()->quantity, "relative_error",
                  "relative_roundoff",      "pairwise_order",
                  "in_asymptotic_range",    "relative_uncertainty_band"};
   for (const Convergence* c : sweeps) {
-    const Numbers errors = errors_of(*c);
+    const Numbers errors = errors_of_levels(*c);
     for (std::size_t k = 0; k < c->parameter.size(); ++k)
       table.rows.push_back(
           {*c->parameter[k], static_cast<double>(c->index + 1), number_or_null(c->values[k]),
@@ -160,7 +160,7 @@ void set_parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   script.axis_label("x", axis_label(parameter.label, parameter.unit));
 }
 
-Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
+Figure figure_of_sweeps(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool exact = std::ranges::any_of(first.error, &Number::has_value);
   PlotScript script;
@@ -181,7 +181,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.log_axis("y", extent.low, extent.high);
   script.plot();
 
-  const std::string parameter = parse_quantity(first.sweep).label, result = conclusion(sweeps);
+  const std::string parameter = parse_quantity(first.sweep).label, result = order_summary(sweeps);
   return {.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
           .title = titled("Convergence of " + words + " over " + parameter, info, run),
           .caption =
@@ -194,7 +194,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
           .alt = "Error against " + parameter + " on logarithmic axes. " + result,
           .height = 360 + key_height,
           .commands = script.commands(),
-          .data = table_of(sweeps)};
+          .data = table_of_sweeps(sweeps)};
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
   for (const Convergence& c : run.convergence) {
     if (c.parameter.empty()) continue;
     // A quantity that is exact on every mesh, such as a count, has no curve.
-    const Numbers errors = errors_of(c);
+    const Numbers errors = errors_of_levels(c);
     const auto nonzero = std::ranges::count_if(errors, [](const auto& e) { return e && *e != 0; });
     if (nonzero < 2) continue;
     const auto same = [&](const Sweeps& known) {
@@ -213,7 +213,7 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
     harness::find_or_add(groups, same, Sweeps{}).push_back(&c);
   }
   std::vector<Figure> figures;
-  for (const Sweeps& sweeps : groups) figures.push_back(figure_of(info, run, sweeps));
+  for (const Sweeps& sweeps : groups) figures.push_back(figure_of_sweeps(info, run, sweeps));
   return figures;
 }
 

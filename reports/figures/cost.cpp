@@ -19,19 +19,19 @@ double drawn_error(const CostStudy& study, const CostSetting& setting) {
   return std::max(study.error_of(setting).value_or(0), kSmallestDrawnCostError);
 }
 
-bool is_drawn(const CostStudy& study, const CostSetting& setting) {
+bool is_drawn_setting(const CostStudy& study, const CostSetting& setting) {
   return setting.is_measured() && study.error_of(setting) && setting.relative;
 }
 
 Interval errors_of(const CostStudy& study) {
   Interval errors;
   for (const CostSetting& setting : study.settings)
-    if (is_drawn(study, setting)) errors.cover_around(drawn_error(study, setting), kMargin);
+    if (is_drawn_setting(study, setting)) errors.cover_around(drawn_error(study, setting), kMargin);
   if (errors.empty()) errors.cover_around(1, kMargin);
   return errors;
 }
 
-Interval times_of(const CostStudy& study) {
+Interval time_range_of_study(const CostStudy& study) {
   Interval times;
   for (const CostSetting& setting : study.settings)
     if (setting.relative.value_or(0) > 0) times.cover_around(*setting.relative, kMargin);
@@ -40,7 +40,7 @@ Interval times_of(const CostStudy& study) {
 
 /// Returns the first setting of each curve. A setting is a model with one value of a numerical
 /// parameter, such as the number of elements. The settings of a curve differ only in this value.
-std::vector<const CostSetting*> curves_of(const CostStudy& study) {
+std::vector<const CostSetting*> first_settings_of_curves(const CostStudy& study) {
   std::vector<const CostSetting*> curves;
   for (const CostSetting& setting : study.settings) {
     const auto same = [&](const CostSetting* first) { return first->curve == setting.curve; };
@@ -51,10 +51,10 @@ std::vector<const CostSetting*> curves_of(const CostStudy& study) {
 
 /// Returns the Pareto front as steps: the time of the cheapest setting for each permitted error.
 /// @param right  largest error, at which the last step ends
-PlotScript::Rows steps_of(const CostStudy& study, double right) {
+PlotScript::Rows pareto_front_steps(const CostStudy& study, double right) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
-    if (setting.pareto_optimal && is_drawn(study, setting))
+    if (setting.pareto_optimal && is_drawn_setting(study, setting))
       front.emplace_back(drawn_error(study, setting), *setting.relative);
   std::sort(front.rbegin(), front.rend());
   PlotScript::Rows rows;
@@ -71,7 +71,7 @@ void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& f
                 std::size_t number) {
   PlotScript::Rows points;
   for (const CostSetting& setting : study.settings) {
-    if (setting.curve != first.curve || !is_drawn(study, setting)) continue;
+    if (setting.curve != first.curve || !is_drawn_setting(study, setting)) continue;
     const double time = *setting.relative;
     points.push_back({drawn_error(study, setting), time,
                       setting.time ? setting.time->relative_low : time,
@@ -79,7 +79,7 @@ void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& f
   }
   const std::string color = lc(palette::color(number));
   const bool filled = number < palette::kFilledPoint.size();
-  const std::string mark = filled ? palette::filled_point(number) : palette::open_point(number);
+  const std::string mark = filled ? palette::filled_marker(number) : palette::open_marker(number);
   script.curve(points, "using 1:2 with lines lw 1.2" + color);
   script.curve(points, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, first.curve_title);
@@ -111,7 +111,7 @@ Table table_of(const CostStudy& study) {
 
 Figure cost_figure(const CostStudy& study) {
   PlotScript script;
-  const Interval errors = errors_of(study), times = times_of(study);
+  const Interval errors = errors_of(study), times = time_range_of_study(study);
   const auto outside =
       static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::has_no_result));
   script.log_axis("x", errors.low, errors.high);
@@ -119,9 +119,9 @@ Figure cost_figure(const CostStudy& study) {
   const double high = std::pow(10, std::ceil(std::log10(errors.high) - 1e-9));
   script.axis_label("x", "relative error (" + study.norm + ")");
   script.axis_label("y", "time, relative to the baseline");
-  script.curve(steps_of(study, high), "using 1:2 with lines lw 5" + lc(palette::kPlate),
+  script.curve(pareto_front_steps(study, high), "using 1:2 with lines lw 5" + lc(palette::kPlate),
                "Pareto front");
-  const std::vector<const CostSetting*> curves = curves_of(study);
+  const std::vector<const CostSetting*> curves = first_settings_of_curves(study);
   std::vector<std::string> keys = {"Pareto front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
     draw_curve(script, study, *curves[i], i);

@@ -114,7 +114,7 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
 
 /// Returns the common last words of two texts: "distance" for "serial distance", "parallel
 /// distance".
-std::string common_end(const std::string& a, const std::string& b) {
+std::string shared_ending(const std::string& a, const std::string& b) {
   const auto differ = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend()).first;
   const std::string end(differ.base(), a.end());
   if (a == b) return a;
@@ -123,16 +123,16 @@ std::string common_end(const std::string& a, const std::string& b) {
 
 /// Returns an axis label for several quantities: the last words that all names have in common, or
 /// else "value".
-std::string common_words(const std::vector<std::string>& names) {
+std::string label_of_common_words(const std::vector<std::string>& names) {
   if (names.size() == 1) return to_text(parse_quantity(names.front()));
   std::string common = parse_quantity(names.front()).label;
-  for (const std::string& name : names) common = common_end(common, parse_quantity(name).label);
+  for (const std::string& name : names) common = shared_ending(common, parse_quantity(name).label);
   return common.empty() ? "value" : common;
 }
 
 /// Sets the range of an axis to the range of the values of the curves.
-void set_range(PlotScript& script, const std::string& axis,
-               const std::vector<const std::vector<double>*>& curves, bool log, double factor) {
+void fit_axis(PlotScript& script, const std::string& axis,
+              const std::vector<const std::vector<double>*>& curves, bool log, double factor) {
   Interval range;
   for (const std::vector<double>* values : curves)
     for (const Number value : *values)
@@ -237,13 +237,13 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
 
   PlotScript script;
   script.axis_label("x", request.x.empty() ? "index" : axis_label(to_text(x), x_scale.unit));
-  const std::string words = common_words(request.y);
+  const std::string words = label_of_common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
   std::vector<const std::vector<double>*> all;
   for (const Series& s : series) all.push_back(s.values);
-  if (request.is_log("y")) set_range(script, "y", all, true, 1);
-  if (x_values) set_range(script, "x", {x_values}, request.is_log("x"), x_scale.factor);
+  if (request.is_log("y")) fit_axis(script, "y", all, true, 1);
+  if (x_values) fit_axis(script, "x", {x_values}, request.is_log("x"), x_scale.factor);
   const int key_height =
       draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();

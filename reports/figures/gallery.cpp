@@ -18,8 +18,8 @@ constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of variants w
 /// to three of four groups. The groups, in this order, are: mechanical effects; values (printed
 /// against computed values, and figures that the case requests); motions and shapes; refinement
 /// studies. All other figures are in a part of the page that is closed at first.
-Gallery gallery_of(const CaseInfo& info, const Results& results,
-                   const std::vector<const Run*>& runs) {
+Gallery plan_case_gallery(const CaseInfo& info, const Results& results,
+                          const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
       std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
@@ -69,7 +69,7 @@ struct FamilyGroup {
 
 /// Sets the group of a case family, and its position in the report. A family without a group, such
 /// as a user's own cases, is last.
-void set_group(Family& family) {
+void set_group_of_family(Family& family) {
   static const std::vector<FamilyGroup> groups = {
       {"Manipulator", {"manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid"}},
       {"Neural network and tables", {"neural", "consistency"}},
@@ -124,13 +124,13 @@ std::vector<Family> plan_family_figures(const Results& results) {
     if (runs.empty()) continue;
     const auto same = [&](const Family& known) { return known.id == info.family; };
     const std::string title =
-        info.family.empty() ? "Own cases" : capitalized(separators_to_spaces(info.family));
+        info.family.empty() ? "Own cases" : capitalized(replace_separators(info.family));
     Family& family = harness::find_or_add(families, same, {.id = info.family, .title = title});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
-    family.galleries[info.id] = gallery_of(info, results, runs);
+    family.galleries[info.id] = plan_case_gallery(info, results, runs);
   }
-  for (Family& family : families) set_group(family);
+  for (Family& family : families) set_group_of_family(family);
   std::ranges::stable_sort(families, {}, &Family::position);
   for (Family& family : families) {
     std::map<std::string, std::string> titles;

@@ -57,7 +57,7 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
 
 /// Returns the limits between the value ranges of a map that have different colors, rounded to two
 /// digits. The ranges contain about equal numbers of cells.
-std::vector<double> class_limits(std::vector<double> sorted) {
+std::vector<double> limits_of_color_classes(std::vector<double> sorted) {
   std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
   std::vector<double> limits;
@@ -91,7 +91,7 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
   return by_color;
 }
 
-std::string class_name(const std::vector<double>& limits, std::size_t k) {
+std::string name_of_color_class(const std::vector<double>& limits, std::size_t k) {
   if (limits.empty()) return "all";
   if (k == 0) return "below " + trimmed(limits.front(), 2);
   if (k == limits.size()) return "above " + trimmed(limits.back(), 2);
@@ -156,7 +156,7 @@ Table table_of(const Field& field, const PlotRequest& request) {
 struct ColorClasses {
   explicit ColorClasses(const std::vector<double>& values)
       : count(values.size()),
-        limits(class_limits(values)),
+        limits(limits_of_color_classes(values)),
         negative(std::ranges::all_of(values, [](double value) { return value <= 0; })),
         positive(std::ranges::all_of(values, [](double value) { return value >= 0; })) {}
 
@@ -194,7 +194,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
     const std::string color = classes.color(k);
     script.curve(by_color[k], "using 1:2:3:4:5:6 with boxxyerror fs solid noborder" + color);
     if (by_color[k].empty()) continue;
-    titles.push_back(class_name(classes.limits, k));
+    titles.push_back(name_of_color_class(classes.limits, k));
     script.key_entry("with points pt 5 ps 1.6" + color, titles.back());
   }
   draw_lines(script, request, run, titles);

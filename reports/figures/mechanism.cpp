@@ -113,8 +113,8 @@ LoadArrows load_arrows(const Drawing& drawing, const std::string& unit, double l
   return arrows;
 }
 
-void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
-              const std::vector<Point>& nodes) {
+void add_rows_of_drawing(Table& table, const std::string& pose, const Drawing& drawing,
+                         const std::vector<Point>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     std::string kind, name;
     for (const Joint& joint : drawing.joints)
@@ -146,7 +146,7 @@ int draw_further_poses(PlotScript& script, Table& data, const std::vector<const 
   for (const LoadArrows& arrows : loads) titles.push_back(arrows.title);
   for (std::size_t i = 0; i < overlays.size(); ++i) {
     draw_body(script, drawing, overlays[i]->nodes, palette::color(2 + i), 1.2, overlays[i]->label);
-    add_rows(data, overlays[i]->label, drawing, overlays[i]->nodes);
+    add_rows_of_drawing(data, overlays[i]->label, drawing, overlays[i]->nodes);
   }
   return script.place_key_below(titles);
 }
@@ -181,7 +181,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   script.curve(polyline_points(triangle_edges_inside(drawing), drawing.nodes),
                "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
-  add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
+  add_rows_of_drawing(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);
   for (const LoadArrows& arrows : loads)
     script.curve(arrows.rows, "with vectors filled lw 2" + lc(palette::kSeries[1]), arrows.title);

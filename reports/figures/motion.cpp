@@ -28,10 +28,10 @@ Largest largest_deflection(const std::vector<Pose>& instants) {
   return found;
 }
 
-std::vector<Pose> instants_of(const Drawing& drawing) {
+std::vector<Pose> instants_of_drawing(const Drawing& drawing) {
   std::vector<Pose> instants;
   for (const Pose& pose : drawing.poses) {
-    const bool finite = are_finite(pose.nodes) && are_finite(pose.displacement);
+    const bool finite = are_finite_points(pose.nodes) && are_finite_points(pose.displacement);
     if (pose.time_s && finite && (instants.empty() || *pose.time_s > *instants.back().time_s))
       instants.push_back(pose);
   }
@@ -47,8 +47,8 @@ double magnification(double deflection, double side) {
   return std::max(1.0, std::floor(factor / unit) * unit);
 }
 
-std::string caption_of(const std::vector<Pose>& instants, const Largest& deflection, double factor,
-                       const std::string& drawn) {
+std::string caption_text(const std::vector<Pose>& instants, const Largest& deflection,
+                         double factor, const std::string& drawn) {
   const std::string all = " Instants: " + drawn + ". Animated: " + std::to_string(instants.size()) +
                           " instants up to " + trimmed(*instants.back().time_s, 4) +
                           "\u202fs, interpolated linearly.";
@@ -131,7 +131,7 @@ std::string animation_json(const Drawing& drawing, const std::vector<Pose>& inst
     moving.json["times"].push_back(*instant.time_s);
     still.push_back(moving.places(instant.nodes));
     const bool deflects = !instant.displacement.empty();
-    moved.push_back(deflects ? moving.places(displaced(
+    moved.push_back(deflects ? moving.places(moved_nodes(
                                    instant.nodes, {instant.label, instant.displacement}, factor))
                              : still.back());
   }
@@ -146,7 +146,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || (run.drawing->members.empty() && run.drawing->triangles.empty()))
     return std::nullopt;
   const Drawing& drawing = *run.drawing;
-  const std::vector<Pose> instants = instants_of(drawing);
+  const std::vector<Pose> instants = instants_of_drawing(drawing);
   if (instants.size() < 2) return std::nullopt;
   const Largest deflection = largest_deflection(instants);
   const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
@@ -154,7 +154,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   for (const Pose& instant : instants) {
     places.push_back(instant.nodes);
     if (!instant.displacement.empty())
-      places.back() = displaced(instant.nodes, {instant.label, instant.displacement}, factor);
+      places.back() = moved_nodes(instant.nodes, {instant.label, instant.displacement}, factor);
     everything.insert(everything.end(), {instant.nodes, places.back()});
   }
   const Box box = box_around(everything, 0.04, 0.22);
@@ -170,7 +170,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
     draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
-  const auto caption = caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
+  const auto caption = caption_text(instants, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,
@@ -181,7 +181,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
                 .moving = animation_json(drawing, instants, factor, box, 500)};
 }
 
-bool are_finite(const std::vector<Point>& points) {
+bool are_finite_points(const std::vector<Point>& points) {
   return std::ranges::all_of(
       points, [](const Point& p) { return std::isfinite(p.first) && std::isfinite(p.second); });
 }

@@ -151,7 +151,7 @@ PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Poin
   return polyline_points(closed, nodes);
 }
 
-std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape, double factor) {
+std::vector<Point> moved_nodes(const std::vector<Point>& nodes, const Shape& shape, double factor) {
   std::vector<Point> out = nodes;
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].first += factor * shape.displacement[i].first;

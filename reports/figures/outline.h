@@ -38,8 +38,8 @@ namespace trammel::reports {
 
 /// Returns the node positions plus `factor` times the displacements of a mode shape or deformed
 /// shape.
-[[nodiscard]] std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape,
-                                           double factor);
+[[nodiscard]] std::vector<Point> moved_nodes(const std::vector<Point>& nodes, const Shape& shape,
+                                             double factor);
 
 /// Smallest box around points.
 struct Box {
@@ -71,6 +71,6 @@ void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Poi
 
 inline constexpr double kDrawnAmplitude = 0.13;  ///< largest drawn deflection / longer box side
 
-[[nodiscard]] bool are_finite(const std::vector<Point>& points);
+[[nodiscard]] bool are_finite_points(const std::vector<Point>& points);
 
 }  // namespace trammel::reports

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMaxShapes = 8;
 constexpr double kRigid = 1e-4;  ///< limit for rigid-body modes: frequency / highest frequency
 
-double factor_for(const Shape& shape, double side) {
+double magnification_of_shape(const Shape& shape, double side) {
   double largest = 0;
   for (const auto& [ux, uy] : shape.displacement) largest = std::max(largest, std::hypot(ux, uy));
   return largest > 0 && std::isfinite(largest) ? kDrawnAmplitude * side / largest : 0;
@@ -52,8 +52,8 @@ struct Panel {
 std::string shape_panel_svg(const Drawing& drawing, const Shape& shape, double factor,
                             double half_period_s, const std::string& name, std::size_t panels,
                             const Panel& panel, std::string& motion) {
-  const std::vector<Point> there = displaced(drawing.nodes, shape, factor),
-                           back = displaced(drawing.nodes, shape, -factor);
+  const std::vector<Point> there = moved_nodes(drawing.nodes, shape, factor),
+                           back = moved_nodes(drawing.nodes, shape, -factor);
   std::string out = fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" fill=\"{}\">{}</text>\n",
                                 panel.left + 0.5 * panel.width, panel.top - 10, palette::kInk,
                                 xml_escaped(with_powers_of_ten(shape.label)));
@@ -93,9 +93,9 @@ std::vector<double> mode_frequencies(const Drawing& drawing, std::size_t n, cons
   std::vector<double> values;
   for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
     if (Number((*frequency)[s]) && is_mode(drawing.shapes[s]) &&
-        are_finite(drawing.shapes[s].displacement))
+        are_finite_points(drawing.shapes[s].displacement))
       values.push_back((*frequency)[s]);
-  return values.size() == n && are_finite(drawing.nodes) ? values : std::vector<double>();
+  return values.size() == n && are_finite_points(drawing.nodes) ? values : std::vector<double>();
 }
 
 /// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz."
@@ -114,8 +114,8 @@ std::string modes_text(const Drawing& drawing, const std::vector<double>& values
   if (free == n) return text;
   const bool one = free + 1 == n;
   return text + (one ? " Mode " : " Modes ") +
-         low_to_high(std::to_string(free + 1), std::to_string(n)) + (one ? " has " : " have ") +
-         low_to_high(hertz(values[free]), hertz(values.back())) + ".";
+         limits_text(std::to_string(free + 1), std::to_string(n)) + (one ? " has " : " have ") +
+         limits_text(hertz(values[free]), hertz(values.back())) + ".";
 }
 
 /// Returns "The largest displacement is 1.2 mm, magnified 83 times."
@@ -144,9 +144,9 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
     table.rows.push_back({static_cast<double>(i), drawing.nodes[i].first, drawing.nodes[i].second});
   for (std::size_t s = 0; s < n; ++s) {
     const Shape& shape = drawing.shapes[s];
-    const double factor = factor_for(shape, side);
+    const double factor = magnification_of_shape(shape, side);
     factors.push_back(factor);
-    moved.push_back(displaced(drawing.nodes, shape, factor));
+    moved.push_back(moved_nodes(drawing.nodes, shape, factor));
     for (const char* head : {"u_x_m [", "u_y_m ["})
       table.heads.push_back(head + shape.label + "; drawn " + shortest_decimal(factor, 4) +
                             " times]");

@@ -72,7 +72,7 @@ Figure scatter(Figure figure, const std::map<std::string, PlotScript::Rows>& cur
       y.cover_around(point[1], kSceneMargin);
     }
     script.curve(rows,
-                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(keys.size() - 1) +
+                 "using 1:2 with points ps 0.7 pt " + palette::filled_marker(keys.size() - 1) +
                      lc(palette::color(keys.size() - 1)),
                  title);
     keys.push_back(title);
@@ -101,10 +101,10 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   for (const EffectRow& effect : run.effects) {
     if (!effect.own_change) continue;
     const double change = std::max(*effect.own_change, kSmallestDrawnChange);
-    add_item(tics, tic(separators_to_spaces(effect.name), --y), ",");
+    add_item(tics, tic(replace_separators(effect.name), --y), ",");
     (effect.active ? kept : omitted)
         .push_back({change, y, kSmallestDrawnChange, change, y - 0.3, y + 0.3});
-    add_item(effect.active ? on : off, separators_to_spaces(effect.name) + " (" +
+    add_item(effect.active ? on : off, replace_separators(effect.name) + " (" +
                                            percent_text(*effect.own_change, 2, false) + ")");
     const double sum = std::max(effect.cumulative_change.value_or(0), kSmallestDrawnChange);
     if (effect.cumulative_change) cumulative.push_back({sum, y});

@@ -29,7 +29,7 @@ double row_y(std::size_t row) {
   return -static_cast<double>(row) - 0.72;
 }
 
-double drawn_fraction(const Check& check) {
+double drawn_tolerance_fraction(const Check& check) {
   if (check.verdict == Verdict::error) return kMaxShare;
   return std::clamp(difference_over_tolerance(check), kMinShare, kMaxShare);
 }
@@ -54,16 +54,16 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
       const auto same = [&](const ToleranceRow& known) { return known.label == label; };
       ToleranceRow& row = harness::find_or_add(rows, same, {label, {}, 0});
       row.checks.emplace_back(run, &check);
-      row.worst = std::max(row.worst, drawn_fraction(check));
+      row.worst = std::max(row.worst, drawn_tolerance_fraction(check));
     }
   return rows;
 }
 
 /// Keeps the check that uses the largest fraction of its tolerance in each row, and sorts the rows
 /// by this fraction.
-void keep_largest(std::vector<ToleranceRow>& rows) {
+void keep_largest_of_each_row(std::vector<ToleranceRow>& rows) {
   std::ranges::sort(rows, {}, [](const ToleranceRow& row) { return -row.worst; });
-  const auto fraction = [](const auto& entry) { return drawn_fraction(*entry.second); };
+  const auto fraction = [](const auto& entry) { return drawn_tolerance_fraction(*entry.second); };
   for (ToleranceRow& row : rows) row.checks = {*std::ranges::max_element(row.checks, {}, fraction)};
 }
 
@@ -74,7 +74,7 @@ PlotScript::Rows points(const std::vector<ToleranceRow>& rows, double per_decade
   PlotScript::Rows out;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
-      if (belongs(*check)) out.push_back({drawn_fraction(*check), row_y(i)});
+      if (belongs(*check)) out.push_back({drawn_tolerance_fraction(*check), row_y(i)});
   // Points whose rounded positions are equal are drawn once.
   for (auto& point : out)
     point[0] = std::pow(10, std::round(per_decade * std::log10(point[0])) / per_decade);
@@ -119,7 +119,7 @@ void write_row_labels(PlotScript& script, const std::vector<ToleranceRow>& rows,
   }
 }
 
-void draw_limits(PlotScript& script, std::size_t rows) {
+void draw_tolerance_limits(PlotScript& script, std::size_t rows) {
   const double bottom = -static_cast<double>(rows);
   script.curve({{1, bottom}, {kMaxShare * 1.6, bottom}, {kMaxShare * 1.6, 0}, {1, 0}, {1, bottom}},
                "with filledcurves closed" + lc(palette::kBlush));
@@ -151,7 +151,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   if (rows.empty()) return std::nullopt;
 
   const std::string caption = conclusion(rows);
-  if (largest_only) keep_largest(rows);
+  if (largest_only) keep_largest_of_each_row(rows);
   Table table = table_of(rows);
   const bool many = table.rows.size() > kManyChecks;
   const double per_decade = many ? 5 : 100;
@@ -163,7 +163,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
       "set xtics ('≤ 10⁻⁸' 1e-8, '10⁻⁶' 1e-6, '10⁻⁴' 1e-4, '1 %%' 1e-2, '10 %%' 1e-1, "
       "'limit' 1, '≥ 100' 1e2)");
   script.axis_label("x", "fraction of the tolerance used");
-  draw_limits(script, rows.size());
+  draw_tolerance_limits(script, rows.size());
   const auto passes = [](const Check& c) { return c.verdict == Verdict::pass; };
   const std::string dot = "with points pt 7 ps 0.55";
   for (const auto& [role, color] :

@@ -77,7 +77,7 @@ const Check* find_same_check(const Run& run, const Check& like) {
 /// Returns the check that represents a row of the table. The candidates are the checks that decide
 /// the grades of the codes. Checks with an expected value come first, then failed checks, then
 /// those that use the largest fraction of their tolerance.
-const Check* shown_check(const Row& row) {
+const Check* representative_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
     return std::tuple(check.expected.has_value(), check.verdict == Verdict::fail,
@@ -118,8 +118,8 @@ Data cell(const Run* run, const Check* shown) {
                  {"time", not_computed ? "" : duration(run->cost.wall_s)}});
 }
 
-Data row_data(const Row& row) {
-  const Check* shown = shown_check(row);
+Data template_data_of_row(const Row& row) {
+  const Check* shown = representative_check(row);
   const auto cell_of = [&](const Run* run) { return cell(run, shown); };
   return object(
       {{"title", row.info->title},
@@ -166,7 +166,7 @@ std::filesystem::path write_code_comparison(const std::vector<std::filesystem::p
   const Data page = object({{"style", template_text("style.css")},
                             {"table", table_data(table_of_codes(codes))},
                             {"codes", list_of(codes, name)},
-                            {"rows", list_of(rows, row_data)},
+                            {"rows", list_of(rows, template_data_of_row)},
                             {"extent", count(rows.size(), "run") + " of the catalogue, " +
                                            count(codes.size(), "code")}});
   write_file(out / "index.html", render("codes.mustache", page));

@@ -23,12 +23,12 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxFigures = 12;  ///< largest number of figures for each run
 
 std::string signed_percent(const Number& percent) {
-  return percent ? with_sign(*percent, 3) + "\u202f%" : "";
+  return percent ? number_with_sign(*percent, 3) + "\u202f%" : "";
 }
 
 /// Returns the label of one of the compared sets of results ("sides"). The label is followed by the
 /// code, commit, date and processor of the side, as far as they differ between the sides.
-std::string side_text(const SideComparison& comparison, const ComparedSide& side) {
+std::string label_of_results(const SideComparison& comparison, const ComparedSide& side) {
   std::string text = side.label;
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
                             &ComparedSide::processor}) {
@@ -39,14 +39,14 @@ std::string side_text(const SideComparison& comparison, const ComparedSide& side
   return text;
 }
 
-TextTable sides_table(const SideComparison& comparison) {
+TextTable table_of_result_sets(const SideComparison& comparison) {
   const bool errors = comparison.sides.front().median_error.has_value();
   TextTable table{"Time and accuracy",
                   {"Side", ">Runs", ">Processor time", ">Relative to the first", ">Work"}};
   if (errors) table.heads.insert(table.heads.end(), {">Median error", ">Largest error"});
   for (const ComparedSide& side : comparison.sides) {
     std::vector<std::string> row = {
-        side_text(comparison, side), std::to_string(side.runs), duration(side.cpu_s),
+        label_of_results(comparison, side), std::to_string(side.runs), duration(side.cpu_s),
         side.relative_time ? "× " + trimmed(*side.relative_time, 3) : "",
         std::to_string(side.work)};
     if (errors)
@@ -72,9 +72,9 @@ TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) 
   for (const ComparedModes& found : run.modes) {
     std::vector<std::string> row = {fmt::format("{}", fmt::join(found.modes[0], ", "))};
     for (std::size_t s = 0; s < found.values.size(); ++s) {
-      std::string text = found.values[s] ? significant(*found.values[s], 6) : "no similar mode";
-      if (found.last[s]) text += " to " + significant(*found.last[s], 6);
-      if (found.errors[s]) text += " ± " + significant(*found.errors[s], 2);
+      std::string text = found.values[s] ? rounded_text(*found.values[s], 6) : "no similar mode";
+      if (found.last[s]) text += " to " + rounded_text(*found.last[s], 6);
+      if (found.errors[s]) text += " ± " + rounded_text(*found.errors[s], 2);
       if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
         text += " (mode " + fmt::format("{}", fmt::join(found.modes[s], ", ")) + ")";
       row.push_back(text);
@@ -95,7 +95,7 @@ TextTable table_of_numbers(const ComparedRun& run, const SideComparison& compari
       const Number value = number.values[s];
       const bool zero = value && std::abs(*value) <= number.noise;
       row.push_back(zero ? "0" : text_or_dash(value, 6));
-      if (!zero && number.errors[s]) row.back() += " ± " + significant(*number.errors[s], 2);
+      if (!zero && number.errors[s]) row.back() += " ± " + rounded_text(*number.errors[s], 2);
       if (s > 0) row.push_back(signed_percent(number.percent[s]));
     }
     table.rows.push_back(row);
@@ -105,7 +105,7 @@ TextTable table_of_numbers(const ComparedRun& run, const SideComparison& compari
 
 /// Returns requests for the figures that the case itself requests, and for a figure of each further
 /// list of values that differs between the compared results.
-std::vector<PlotRequest> requests_of(const ComparedRun& run) {
+std::vector<PlotRequest> plot_requests_of_run(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
   std::set<std::string> drawn = {"time_s"};  // time is the x axis of other series
   for (PlotRequest request : run.info.figures) {
@@ -129,7 +129,7 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
 
 /// Plans figures that show the runs of all compared sets of results ("sides") like variants of one
 /// case. The labels of the sides are the titles of the variants.
-std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& comparison) {
+std::vector<Figure> plan_figures(const ComparedRun& run, const SideComparison& comparison) {
   if (run.runs.empty()) return {};
   CaseInfo info = run.info;
   std::vector<Run> runs = run.runs;
@@ -142,7 +142,7 @@ std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& com
     sides.push_back(&runs[s]);
   }
   std::vector<Figure> figures;
-  for (const PlotRequest& request : requests_of(run)) {
+  for (const PlotRequest& request : plot_requests_of_run(run)) {
     std::string problem;
     if (figures.size() == kMaxFigures) break;
     if (auto figure = curves_figure(info, request, sides, problem))
@@ -155,7 +155,7 @@ std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& com
 
 void write_comparison(const SideComparison& comparison, const fs::path& file) {
   std::vector<std::vector<Figure>> figures;
-  for (const ComparedRun& run : comparison.runs) figures.push_back(figures_of(run, comparison));
+  for (const ComparedRun& run : comparison.runs) figures.push_back(plan_figures(run, comparison));
   std::vector<Figure*> page;
   for (auto& own : figures)
     for (Figure& figure : own) page.push_back(&figure);
@@ -182,7 +182,7 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
                       {"script", template_text("page.js")},
                       {"single", true},
                       {"conclusion", comparison.conclusion},
-                      {"sides", table_data(sides_table(comparison))},
+                      {"sides", table_data(table_of_result_sets(comparison))},
                       {"runs", runs}});
   if (!file.parent_path().empty()) fs::create_directories(file.parent_path());
   write_file(file, render("comparison.mustache", data));

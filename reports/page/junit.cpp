@@ -44,7 +44,7 @@ std::string attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + xml_escaped(value) + "\"";
 }
 
-std::string attributes(Tally tally) {
+std::string tally_attributes(Tally tally) {
   std::string text = attribute("tests", std::to_string(tally.tests));
   for (const auto& [name, element] : {std::pair("failures", "failure"), {"errors", "error"}})
     text += attribute(name, std::to_string(tally.elements[element]));
@@ -52,9 +52,9 @@ std::string attributes(Tally tally) {
 }
 
 /// Returns the JUnit element of a test case with its outcome and output, and counts it in `tally`.
-std::string testcase(const std::string& classname, const std::string& name, double time_s,
-                     CheckStatus status, const std::string& message, const std::string& output,
-                     Tally& tally) {
+std::string testcase_element(const std::string& classname, const std::string& name, double time_s,
+                             CheckStatus status, const std::string& message,
+                             const std::string& output, Tally& tally) {
   ++tally.tests;
   tally.time_s += time_s;
   std::string text = "    <testcase" + attribute("classname", classname) + attribute("name", name) +
@@ -73,7 +73,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
 /// Returns one line about the value of a check with the most severe status.
 std::string check_message(const CheckGroup& group) {
   const Check& worst = group.worst();
-  if (check_status(worst) == CheckStatus::known_discrepancy)
+  if (find_status(worst) == CheckStatus::known_discrepancy)
     return "Known discrepancy: " + difference_text(worst) + ", recorded " + tolerance_text(worst) +
            "; " + worst.why;
   return failure_text(group);
@@ -107,19 +107,19 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   for (const Run& run : results.runs) {
     if (run.case_id != info.id) continue;
     const std::string classname = info.id + "." + run.variant;
-    body += testcase(classname, "status", run.cost.wall_s, check_status(run), run.reason,
-                     run_output(run), tally);
+    body += testcase_element(classname, "status", run.cost.wall_s, find_status(run), run.reason,
+                             run_output(run), tally);
     for (const CheckGroup& group : group_checks(run)) {
       const std::string& name = group.front().name;
       if (name == "unexpected-status") continue;  // reported by the test case "status"
-      body +=
-          testcase(classname, name == "status" ? "expected-status" : name, 0,
-                   check_status(group.worst()), check_message(group), check_output(group), tally);
+      body += testcase_element(classname, name == "status" ? "expected-status" : name, 0,
+                               find_status(group.worst()), check_message(group),
+                               check_output(group), tally);
     }
   }
   if (tally.tests == 0) return "";
   all.add(tally);
-  return "  <testsuite" + attribute("name", info.id) + attributes(tally) +
+  return "  <testsuite" + attribute("name", info.id) + tally_attributes(tally) +
          attribute("skipped", std::to_string(tally.elements["skipped"])) +
          attribute("timestamp", results.environment.date) + ">\n" + body + "  </testsuite>\n";
 }
@@ -131,7 +131,7 @@ void write_junit(const Results& results, const std::filesystem::path& junit_xml)
   std::string suites;
   for (const CaseInfo& info : results.cases) suites += suite(info, results, all);
   write_file(junit_xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
-                            attribute("name", "trammel") + attributes(all) + ">\n" + suites +
+                            attribute("name", "trammel") + tally_attributes(all) + ">\n" + suites +
                             "</testsuites>\n");
 }
 

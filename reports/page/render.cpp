@@ -39,8 +39,8 @@ std::string typeset_powers_in_html(const std::string& html) {
 
 /// Applies the function `change` to all values of an attribute in an HTML text. The values must be
 /// in double quotes.
-std::string with_attribute(const std::string& html, const std::string& attribute,
-                           const std::function<std::string(const std::string&)>& change) {
+std::string change_attribute_values(const std::string& html, const std::string& attribute,
+                                    const std::function<std::string(const std::string&)>& change) {
   const std::string open = " " + attribute + "=\"";
   std::string out;
   std::size_t from = 0;
@@ -73,7 +73,7 @@ std::string with_relative_links(const std::string& html, const std::string& page
     if (target.starts_with(page + "#")) return target.substr(page.size());
     return (page.find('/') == std::string::npos ? "" : "../") + target;
   };
-  return with_attribute(with_attribute(html, "href", change), "src", change);
+  return change_attribute_values(change_attribute_values(html, "href", change), "src", change);
 }
 
 }  // namespace trammel::reports

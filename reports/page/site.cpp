@@ -51,8 +51,8 @@ void copy(const Data& from, Data& to, std::initializer_list<const char*> keys) {
 }
 
 /// Returns the data of the front page and of all pages of sections.
-Data front_page_data(const Results& results, const std::vector<Family>& families,
-                     const StudyFigures& figures) {
+Data site_data(const Results& results, const std::vector<Family>& families,
+               const StudyFigures& figures) {
   const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
   const Data summary = summary_section(results, families);
   return object(
@@ -117,7 +117,7 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
 /// Returns the data for the search on the front page: a row for each check of each variant, with
 /// its value of the most severe status. The data are a script, because a page from a local file
 /// cannot load JSON.
-std::string check_list(const std::vector<Family>& families) {
+std::string check_search_script(const std::vector<Family>& families) {
   Json json = {{"cases", Json::array()}, {"rows", Json::array()}, {"roles", Json::array()}};
   for (const StatusStyle& style : kStatusStyles)
     json["statuses"].push_back({style.text, style.css_class, style.sign, style.severity});
@@ -132,7 +132,7 @@ std::string check_list(const std::vector<Family>& families) {
           const double share = difference_over_tolerance(worst);
           json["rows"].push_back(
               {json["cases"].size(), run->variant, check_title(worst), quantity_text(worst),
-               role->second, static_cast<int>(check_status(worst)),
+               role->second, static_cast<int>(find_status(worst)),
                std::isfinite(share) ? Json(std::round(1000 * share) / 1000) : Json(),
                slug(worst.name)});
         }
@@ -143,7 +143,7 @@ std::string check_list(const std::vector<Family>& families) {
          ";\n";
 }
 
-Data titled_by(const Data& section, const char* title) {
+Data page_heading(const Data& section, const char* title) {
   Data data = object({{"heading", text_variable(section, title)}});
   copy(section, data, {"status_class", "status_text", "sign"});
   return data;
@@ -180,7 +180,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                {"is_index", path == "index.html"},
                {"has_sidebar", path != "index.html" && !families.empty()},
                {"body", body}});
-    files.push_back({path, with_relative_links(render("page.mustache", page), path)});
+    return SiteFile{path, with_relative_links(render("page.mustache", page), path)};
   };
   for (std::size_t f = 0; f < families.size(); ++f) {
     const std::string link = family_link(families[f].id);
@@ -188,7 +188,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
     const auto& cases = families[f].cases;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Data data = case_section(*cases[i], families[f], results);
-      Data title = titled_by(data, "case_title");
+      Data title = page_heading(data, "case_title");
       set(title, {{"above", families[f].title},
                   {"above_link", link},
                   {"previous", i > 0 ? case_link(cases[i - 1]->id) : ""},

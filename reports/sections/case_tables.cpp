@@ -20,7 +20,7 @@ Number statistic_or_missing(const std::string& name, const std::vector<double>* 
   return harness::statistic_of(name.empty() ? "first" : name, *values);
 }
 
-Number timing_of(const Run& run, const std::string& name) {
+Number find_timing(const Run& run, const std::string& name) {
   for (const auto& [key, seconds, evaluations] : run.cost.timings)
     if (key == name) return seconds;
   return {};
@@ -29,7 +29,7 @@ Number timing_of(const Run& run, const std::string& name) {
 std::string cell_text(const ColumnRequest& column, const Run& run) {
   if (column.timing.empty())
     return text_or_dash(statistic_or_missing(column.statistic, run.quantity(column.quantity)), 3);
-  const Number time = timing_of(run, column.timing), other = timing_of(run, column.over_timing);
+  const Number time = find_timing(run, column.timing), other = find_timing(run, column.over_timing);
   if (!time || (!column.over_timing.empty() && other.value_or(0) == 0)) return text_or_dash({}, 3);
   return column.over_timing.empty() ? duration(*time) : "× " + trimmed(*time / *other, 2);
 }
@@ -70,7 +70,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
                            const Numbers& values) {
     std::vector<std::string>& cells = table.rows.emplace_back();
     cells = {title, probability};
-    for (const Number& value : values) cells.push_back(value ? significant(*value, 5) : "");
+    for (const Number& value : values) cells.push_back(value ? rounded_text(*value, 5) : "");
     for (std::size_t i = table.heads.size(); i < cells.size(); ++i)
       table.heads.push_back(">Value " + std::to_string(i - 1));
   };
@@ -88,7 +88,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
 std::string values_text(const std::vector<double>& values) {
   if (values.size() > kMaxListedValues) {
     const auto [low, high] = std::ranges::minmax(values);
-    return low_to_high(significant(low, 4), significant(high, 4));
+    return limits_text(rounded_text(low, 4), rounded_text(high, 4));
   }
   std::string text;
   for (const double value : values) add_item(text, trimmed(value, 6));
@@ -121,13 +121,13 @@ TextTable uncertainty_table(const CaseInfo& info, const std::vector<const Run*>&
       if (!c.expected || !c.u_val) continue;
       const auto percent = [&](Number value, bool sign) {
         const double size = value.value_or(0) / std::abs(*c.expected) * 100;
-        return !value ? "" : sign ? with_sign(size, 2) : trimmed(size, 2);
+        return !value ? "" : sign ? number_with_sign(size, 2) : trimmed(size, 2);
       };
       if (std::exchange(last, c.check) != c.check)
         table.rows.push_back({info.variant_title(run->variant) + ", " + c.check});
       const QuantityLabel label = parse_quantity(c.quantity);
       const std::string name = to_text(label) + " " + std::to_string(c.index + 1);
-      table.rows.push_back({axis_label(name, label.unit), significant(*c.expected, 4),
+      table.rows.push_back({axis_label(name, label.unit), rounded_text(*c.expected, 4),
                             percent(c.difference, true), percent(c.u_num, false),
                             percent(c.u_input, false), percent(c.u_reference, false),
                             percent(c.u_val, false), c.dominant_input});
@@ -160,7 +160,7 @@ std::string effects_title(const Run& run) {
   std::string active;
   std::size_t inactive = 0;
   for (const EffectRow& effect : run.effects) {
-    if (effect.active) add_item(active, separators_to_spaces(effect.name));
+    if (effect.active) add_item(active, replace_separators(effect.name));
     if (effect.applicable && !effect.active) ++inactive;
   }
   return "Computed with " + (active.empty() ? "bending alone" : active) + "; " +
@@ -174,7 +174,7 @@ TextTable effects_table(const Run& run) {
   const auto change = [](Number x) { return x ? percent_text(*x, 3, false) : ""; };
   for (const EffectRow& e : run.effects) {
     if (!e.applicable) continue;
-    table.rows.push_back({separators_to_spaces(e.name), e.active ? "on" : "off",
+    table.rows.push_back({replace_separators(e.name), e.active ? "on" : "off",
                           e.dimensionless_number ? trimmed(*e.dimensionless_number, 3) : "",
                           e.number_definition, change(e.own_change), change(e.cumulative_change),
                           e.why});

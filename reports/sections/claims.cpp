@@ -28,7 +28,7 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
 }};
 
 /// Returns the template data `entries` together with text, CSS class and symbol of a verdict.
-Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entries) {
+Data verdict_data(const std::string& verdict, std::initializer_list<Entry> entries) {
   const auto* found =
       std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
                    [&](const VerdictStyle& style) { return verdict == style.verdict; });
@@ -49,7 +49,7 @@ std::string measured_range_text(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [lowest, highest] =
       std::ranges::minmax_element(interpretation.entries, {}, &ClaimEntry::value);
-  return low_to_high(number_text(interpretation, lowest->value),
+  return limits_text(number_text(interpretation, lowest->value),
                      number_text(interpretation, highest->value));
 }
 
@@ -70,7 +70,7 @@ Data data_of_interpretation(const ClaimInterpretation& interpretation, const Res
     seen.push_back(entry.case_id);
     cases.push_back(object({{"case_id", entry.case_id}, {"case_link", case_link(entry.case_id)}}));
   }
-  return with_verdict(interpretation.verdict, {{"description", interpretation.description},
+  return verdict_data(interpretation.verdict, {{"description", interpretation.description},
                                                {"measured", measured_range_text(interpretation)},
                                                {"cases", cases}});
 }
@@ -80,7 +80,7 @@ Data claim_data(const Claim& claim, const Results& results) {
     return data_of_interpretation(reading, results);
   };
   const ClaimInterpretation deciding = deciding_interpretation(claim.interpretations);
-  return with_verdict(
+  return verdict_data(
       claim.verdict,
       {{"id", claim.id},
        {"claim", claim.claim},
@@ -105,7 +105,7 @@ std::string item_title(const std::string& id) {
   return (kind == "table" ? "Table " : "Figure ") + number;
 }
 
-Data item_data(const PaperItem& item, const Claims& claims) {
+Data data_of_paper_item(const PaperItem& item, const Claims& claims) {
   const auto shown = [](const PaperItem::Counterpart& counterpart) {
     return object({{"case_id", counterpart.case_id},
                    {"case_link", case_link(counterpart.case_id)},
@@ -116,7 +116,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
   Data verdicts = list();
   for (const Claim& claim : claims.claims)
     if (harness::contains(item.claims, claim.id))
-      verdicts.push_back(with_verdict(claim.verdict, {{"claim_id", claim.id}}));
+      verdicts.push_back(verdict_data(claim.verdict, {{"claim_id", claim.id}}));
   return object({{"title", item_title(item.id)},
                  {"section", item.section},
                  {"what", item.what},
@@ -127,7 +127,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
 }
 
 /// Returns the number of claims of each verdict as text.
-std::string overview(const Claims& claims) {
+std::string verdict_counts_text(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
     const auto n = std::ranges::count_if(
@@ -142,10 +142,10 @@ std::string overview(const Claims& claims) {
 Data claims_section(const Results& results) {
   if (!results.claims) return object({{"has_rows", false}});
   const Claims& claims = *results.claims;
-  const auto item = [&](const PaperItem& shown) { return item_data(shown, claims); };
+  const auto item = [&](const PaperItem& shown) { return data_of_paper_item(shown, claims); };
   const auto verdict = [&](const Claim& claim) { return claim_data(claim, results); };
   return object({{"title", claims.title},
-                 {"overview", overview(claims)},
+                 {"overview", verdict_counts_text(claims)},
                  {"has_items", !claims.items.empty()},
                  {"items", list_of(claims.items, item)},
                  {"list", list_of(claims.claims, verdict)}});

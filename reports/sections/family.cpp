@@ -5,19 +5,19 @@
 
 namespace trammel::reports {
 
-Data with_status(CheckStatus status, std::initializer_list<Entry> entries) {
+Data status_data(CheckStatus status, std::initializer_list<Entry> entries) {
   Data data = object(entries);
-  const StatusStyle& style = style_of(status);
+  const StatusStyle& style = find_style(status);
   set(data, {{"status_text", style.text}, {"status_class", style.css_class}, {"sign", style.sign}});
   return data;
 }
 
-Data counts_list(const Counts& counts) {
+Data data_of_status_counts(const Counts& counts) {
   Data out = list();
   const auto all = static_cast<double>(total(counts));
   for (const auto& [status, n] : counts)
     out.push_back(
-        with_status(status, {{"n", std::to_string(n)},
+        status_data(status, {{"n", std::to_string(n)},
                              {"percent", shortest_decimal(100.0 * static_cast<double>(n) / all)}}));
   return out;
 }
@@ -48,7 +48,7 @@ Data figure_data(const Figure& figure) {
 
 namespace {
 
-Counts counts_of(const std::vector<const Run*>& runs) {
+Counts counts_of_checks(const std::vector<const Run*>& runs) {
   Counts counts;
   for (const Run* run : runs) add_check_counts(counts, *run);
   return counts;
@@ -56,9 +56,9 @@ Counts counts_of(const std::vector<const Run*>& runs) {
 
 /// Returns the most severe status among the runs and all their checks.
 CheckStatus worst_status(const std::vector<const Run*>& runs) {
-  Counts counts = counts_of(runs);
+  Counts counts = counts_of_checks(runs);
   for (const Run* run : runs)
-    if (check_status(*run) != CheckStatus::passes) ++counts[check_status(*run)];
+    if (find_status(*run) != CheckStatus::passes) ++counts[find_status(*run)];
   for (const CheckStatus status :
        {CheckStatus::error, CheckStatus::fails, CheckStatus::changed_discrepancy,
         CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
@@ -71,9 +71,9 @@ Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Data out = list();
   for (const Run* run : runs)
     if (run->status != Status::solved)
-      out.push_back(with_status(check_status(*run), {{"variant", info.variant_title(run->variant)},
-                                                     {"status", to_string(run->status)},
-                                                     {"reason", run->reason}}));
+      out.push_back(status_data(find_status(*run), {{"variant", info.variant_title(run->variant)},
+                                                    {"status", to_string(run->status)},
+                                                    {"reason", run->reason}}));
   return out;
 }
 
@@ -88,19 +88,19 @@ Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
 /// Returns the template data of a case for the table of contents and for the page of its family.
 Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
-  return with_status(worst_status(runs),
+  return status_data(worst_status(runs),
                      {{"case_link", case_link(info.id)},
                       {"case_id", info.id},
                       {"run_name", run_name(info)},
                       {"case_title", info.title},
                       {"short_title", family.short_title(info)},
                       {"variants_count", runs.size() > 1 ? count(runs.size(), "variant") : ""},
-                      {"counts", counts_list(counts_of(runs))}});
+                      {"counts", data_of_status_counts(counts_of_checks(runs))}});
 }
 
 /// Returns the first still drawing (SVG) of a mode shape, deformed shape or geometry among the
 /// cases of a family, as a thumbnail.
-std::string thumbnail_of(const Family& family) {
+std::string thumbnail_of_family(const Family& family) {
   for (const CaseInfo* info : family.cases)
     for (const auto part : {&Gallery::shown, &Gallery::sketch})
       for (const Figure& figure : family.galleries.at(info->id).*part) {
@@ -121,13 +121,13 @@ std::string largest_difference_text(const std::vector<const Run*>& runs) {
     if (const Check* check = results::decisive_check(*run);
         check != nullptr && (worst == nullptr || is_worse_than(*check, *worst)))
       worst = check;
-  const bool differs = worst != nullptr && check_status(*worst) != CheckStatus::passes;
+  const bool differs = worst != nullptr && find_status(*worst) != CheckStatus::passes;
   return differs ? difference_text(*worst) + ", " + quantity_text(*worst) : "";
 }
 
 }  // namespace
 
-Data family_groups(const std::vector<Family>& families) {
+Data groups_of_families(const std::vector<Family>& families) {
   Data groups = list();
   for (auto family = families.begin(); family != families.end();) {
     const Family& first = *family;
@@ -137,12 +137,12 @@ Data family_groups(const std::vector<Family>& families) {
     for (; family != families.end() && family->group == first.group; ++family) {
       runs.insert(runs.end(), family->runs.begin(), family->runs.end());
       cases += family->cases.size();
-      if (thumbnail.empty()) thumbnail = thumbnail_of(*family);
+      if (thumbnail.empty()) thumbnail = thumbnail_of_family(*family);
     }
     groups.push_back(object({{"family_link", family_link(first.id)},
                              {"group_title", first.group},
                              {"cases_count", count(cases, "case")},
-                             {"counts", counts_list(counts_of(runs))},
+                             {"counts", data_of_status_counts(counts_of_checks(runs))},
                              {"thumbnail", thumbnail},
                              {"largest", largest_difference_text(runs)}}));
   }
@@ -176,15 +176,15 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
 
 Data family_section(const Family& family, const Results& results) {
   const std::string cases_count = count(family.cases.size(), "case");
-  const Counts counts = counts_of(family.runs);
+  const Counts counts = counts_of_checks(family.runs);
   const Data matrices = comparison_matrices(family, results);
   const auto entry = [&](const CaseInfo* info) { return case_entry(*info, family); };
-  return with_status(worst_status(family.runs),
+  return status_data(worst_status(family.runs),
                      {{"family_link", family_link(family.id)},
                       {"family_title", family.title},
                       {"cases_count", cases_count},
                       {"extent", cases_count + ", " + count(total(counts), "check")},
-                      {"counts", counts_list(counts)},
+                      {"counts", data_of_status_counts(counts)},
                       {"has_overview", !family.overview.empty()},
                       {"overview", list_of(family.overview, figure_data)},
                       {"has_common", !family.overview.empty() || matrices.is_non_empty_list()},

@@ -47,7 +47,7 @@ bool is_matrix_check(const Check& check) {
          check.verdict != Verdict::not_run;
 }
 
-std::vector<MatrixSubject> subjects(const Family& family) {
+std::vector<MatrixSubject> matrix_subjects(const Family& family) {
   std::vector<MatrixSubject> out;
   for (const Run* run : family.runs)
     for (const Check& check : run->checks) {
@@ -91,9 +91,9 @@ Data cell_of(const MatrixCell& cell) {
   if (!cell.check) return object({{"filled", false}});
   const double d = *cell.check->difference;
   Data data =
-      with_status(check_status(*cell.check),
+      status_data(find_status(*cell.check),
                   {{"filled", true},
-                   {"value", significant(*cell.check->computed, 4)},
+                   {"value", rounded_text(*cell.check->computed, 4)},
                    {"difference", percent_text(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
                    {"side", d < 0 ? "below" : "above"},
                    {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColorDifference), 2)}});
@@ -156,7 +156,7 @@ std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
 /// Returns the most probable reading (interpretation of the published model) for each assumed model
 /// discrepancy: "Of 666 readings (case), the most probable is X (40 %) for a model discrepancy of
 /// 1 %, Y (30 %) for ...". Empty if no run has probabilities for this reference.
-std::string most_probable(const std::string& reference, const Results& results) {
+std::string most_probable_readings(const std::string& reference, const Results& results) {
   std::string text;
   for (const Run& run : results.runs) {
     if (!run.model_probabilities) continue;
@@ -178,7 +178,7 @@ std::string most_probable(const std::string& reference, const Results& results) 
 /// reaches within 1 %.
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
-  std::string text = most_probable(subject.reference, results);
+  std::string text = most_probable_readings(subject.reference, results);
   if (text.empty())
     text = "Nearest overall: " + row_title(family, results, best) +
            ", with a root mean square difference of " + percent_text(best.distance, 2, false) +
@@ -197,7 +197,7 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
 
 /// Returns the data of a table cell for each target. The cell is empty if `entries` has no check of
 /// the target.
-Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
+Data cells_of_targets(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
   return list_of(subject.targets, [&](const auto& target) {
     const auto found = entries.find(target.first);
     return cell_of(found == entries.end() ? MatrixCell{} : found->second);
@@ -214,10 +214,10 @@ Data matrix_row(const MatrixSubject& subject, const MatrixRow& row, const Family
        {"partial", row.checks.size() == complete ? ""
                                                  : count(row.checks.size(), entry_word(subject)) +
                                                        " only, ranked after complete rows"},
-       {"cells", cells_of(subject, row.checks)}});
+       {"cells", cells_of_targets(subject, row.checks)}});
 }
 
-Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {
+Data matrix_of_subject(const MatrixSubject& subject, const Family& family, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
   const QuantityLabel quantity = parse_quantity(subject.quantity);
   Tally tally;
@@ -240,13 +240,13 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
        {"entry_word", entry_word(subject)},
        {"columns", list_of(subject.targets, column)},
        {"has_nearest", subject.rows.size() > 1},
-       {"nearest", cells_of(subject, nearest_of(subject))},
+       {"nearest", cells_of_targets(subject, nearest_of(subject))},
        {"rows", list_of(subject.rows, row)}});
 }
 
 /// Returns true if the page shows a matrix, which requires enough variants and targets, or a
 /// validation uncertainty.
-bool is_shown(const MatrixSubject& subject) {
+bool is_shown_matrix(const MatrixSubject& subject) {
   const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
     return row.checks.begin()->second.comparison != nullptr;
   });
@@ -258,10 +258,10 @@ bool is_shown(const MatrixSubject& subject) {
 
 Data comparison_matrices(const Family& family, const Results& results) {
   Data matrices = list();
-  for (MatrixSubject& subject : subjects(family)) {
-    if (!is_shown(subject)) continue;
+  for (MatrixSubject& subject : matrix_subjects(family)) {
+    if (!is_shown_matrix(subject)) continue;
     sort_rows(subject);
-    matrices.push_back(matrix_of(subject, family, results));
+    matrices.push_back(matrix_of_subject(subject, family, results));
   }
   return matrices;
 }
@@ -272,7 +272,7 @@ Data validation_uncertainty_section(const std::vector<Family>& families,
   Data with = list();
   for (const Family& family : families) {
     Tally tally;
-    for (const MatrixSubject& subject : subjects(family))
+    for (const MatrixSubject& subject : matrix_subjects(family))
       for (const MatrixRow& row : subject.rows) tally.add(row), all.add(row);
     if (tally.entries > 0)
       with.push_back(object({{"family_title", family.title},

@@ -13,8 +13,8 @@ constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufac
 
 /// Returns a table of the program features of one group: keys of a case file, pairs of an analysis
 /// and a component of the model, or quantities. Features without independent evidence are first.
-Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
-                const std::string& title) {
+Data feature_data(const std::vector<CoverageRow>& rows, const std::string& group,
+                  const std::string& title) {
   TextTable table{title, {"Feature"}};
   table.heads.insert(table.heads.end(), kEvidence.begin(), kEvidence.end());
   table.heads.insert(table.heads.end(), {"Series judged", "Reason for no independent evidence"});
@@ -91,9 +91,9 @@ Data call_history_section(const Results& results, const StudyFigures& figures) {
 Data coverage_section(const Results& results) {
   const auto& rows = results.coverage;
   Data groups = list();
-  groups.push_back(group_data(rows, "key", "Keys and values of a case"));
-  groups.push_back(group_data(rows, "pair", "Types of analysis with parts, elements and joints"));
-  groups.push_back(group_data(rows, "quantity", "Quantities"));
+  groups.push_back(feature_data(rows, "key", "Keys and values of a case"));
+  groups.push_back(feature_data(rows, "pair", "Types of analysis with parts, elements and joints"));
+  groups.push_back(feature_data(rows, "quantity", "Quantities"));
   int verified = 0, series = 0, judged = 0;
   for (const CoverageRow& row : rows) {
     verified += row.is_verified() ? 1 : 0;

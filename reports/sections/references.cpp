@@ -19,7 +19,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> kKinds = {{
     {"code", "published by another code"},
 }};
 
-std::string kind_meaning(const std::string& kind) {
+std::string meaning_of_reference_kind(const std::string& kind) {
   for (const auto& [name, meaning] : kKinds)
     if (kind == name) return meaning;
   return kind;
@@ -36,7 +36,7 @@ std::string uncertainty_text(const Reference& reference, std::size_t i) {
   return k < all.size() && all[k] ? "± " + trimmed(*all[k], 2) : "";
 }
 
-Data values_of(const Reference& reference) {
+Data data_of_reference_values(const Reference& reference) {
   Data out = list();
   for (std::size_t i = 0; i < reference.values.size(); ++i)
     out.push_back(object({{"i", reference.values.size() > 1 ? std::to_string(i + 1) : ""},
@@ -61,12 +61,12 @@ Data used_by(const Results& results, const std::string& id) {
   return out;
 }
 
-Data provenance(const Reference& reference, const Results& results) {
+Data reference_data(const Reference& reference, const Results& results) {
   const bool few = reference.values.size() <= kMaxUnfoldedValues;
   return object({{"anchor", "ref-" + slug(reference.id)},
                  {"reference_id", reference.id},
                  {"reference_title", reference.title},
-                 {"kind", kind_meaning(reference.kind)},
+                 {"kind", meaning_of_reference_kind(reference.kind)},
                  {"unit", display_unit(reference.unit)},
                  {"citation", reference.citation},
                  {"doi", reference.doi},
@@ -79,7 +79,7 @@ Data provenance(const Reference& reference, const Results& results) {
                  {"ambiguities", texts(reference.ambiguities)},
                  {"few_values", few && !reference.values.empty()},
                  {"many_values", few ? "" : count(reference.values.size(), "value")},
-                 {"values", values_of(reference)},
+                 {"values", data_of_reference_values(reference)},
                  {"used_by", used_by(results, reference.id)}});
 }
 
@@ -87,7 +87,7 @@ Data provenance(const Reference& reference, const Results& results) {
 
 Data references_section(const Results& results) {
   return list_of(results.references,
-                 [&](const Reference& reference) { return provenance(reference, results); });
+                 [&](const Reference& reference) { return reference_data(reference, results); });
 }
 
 }  // namespace trammel::reports

@@ -15,11 +15,11 @@ namespace trammel::reports {
 
 /// Returns the template data `entries` together with text, CSS class and symbol of a check status
 /// (`status_text`, `status_class`, `sign`).
-[[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
+[[nodiscard]] Data status_data(CheckStatus status, std::initializer_list<Entry> entries = {});
 
 /// Returns template data with an entry for each status that occurs: the number n of checks with
 /// this status, and their percentage of all checks.
-[[nodiscard]] Data counts_list(const Counts& counts);
+[[nodiscard]] Data data_of_status_counts(const Counts& counts);
 
 /// Return links to the page of a case, a family or a reference, relative to the report folder.
 [[nodiscard]] std::string case_link(const std::string& id);
@@ -78,7 +78,7 @@ struct StudyFigures {
 
 /// Returns the groups of families, each with a link to its first family, a small drawing, and the
 /// largest difference from a target as text.
-[[nodiscard]] Data family_groups(const std::vector<Family>& families);
+[[nodiscard]] Data groups_of_families(const std::vector<Family>& families);
 
 /// Returns a table ("matrix") of differences for each validation check with many variants or a
 /// validation uncertainty. Variants are rows, with the nearest to the published values first.

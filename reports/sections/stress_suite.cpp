@@ -17,7 +17,7 @@ struct Indicator {
   std::size_t entries = 0;   ///< number of checked values in all runs
 };
 
-Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {
+Indicator make_indicator(const std::string& check, const std::vector<const Run*>& runs) {
   Indicator found;
   for (const Run* run : runs)
     for (const Check& entry : run->checks) {
@@ -35,8 +35,8 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const bool is_bound = check.measure == "bound";
   auto scope = indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
   if (indicator.entries > 1) add_item(scope, "worst of " + std::to_string(indicator.entries), "; ");
-  return with_status(
-      check_status(check),
+  return status_data(
+      find_status(check),
       {{"quantity", check.title.empty() ? quantity_text(check) : check.title},
        {"of_what", scope},
        {"value", is_bound || !check.difference ? computed_text(check) : difference_text(check)},
@@ -51,11 +51,11 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
       if (is_numeric(check)) largest = std::max(largest, difference_over_tolerance(check));
   Data rows = list();
   for (const std::string& check : info.stress_suite->indicators) {
-    const Indicator indicator = worst_of(check, family.runs_of(info.id));
-    ++counts[indicator.worst ? check_status(*indicator.worst) : CheckStatus::not_run];
+    const Indicator indicator = make_indicator(check, family.runs_of(info.id));
+    ++counts[indicator.worst ? find_status(*indicator.worst) : CheckStatus::not_run];
     rows.push_back(indicator.worst
                        ? row_of(indicator, info)
-                       : with_status(CheckStatus::not_run,
+                       : status_data(CheckStatus::not_run,
                                      {{"quantity", check}, {"of_what", "no run has this check"}}));
   }
   return object({{"case_title", info.title},
@@ -68,7 +68,7 @@ std::string counts_text(const Counts& counts, std::size_t items, std::size_t cas
   std::string text;
   for (const auto& [status, n] : counts)
     add_item(text, std::to_string(n) + " " +
-                       (status == CheckStatus::passes && n > 1 ? "pass" : style_of(status).text));
+                       (status == CheckStatus::passes && n > 1 ? "pass" : find_style(status).text));
   return count(items, "item") + ", " + count(cases, "case") + ", " +
          count(total(counts), "indicator") + ": " + text + ".";
 }

@@ -28,26 +28,26 @@ Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
   for (const Run& run : results.runs)
     for (const CheckGroup& group : group_checks(run))
-      if (role == "all" || group.front().role == role) ++counts[check_status(group.worst())];
+      if (role == "all" || group.front().role == role) ++counts[find_status(group.worst())];
   return counts;
 }
 
 /// Sets the table of the number of checks by role and status. Statuses without a check are omitted,
 /// except for "fails".
-void set_roles(Data& data, const Results& results, const Counts& all) {
+void set_table_of_roles(Data& data, const Results& results, const Counts& all) {
   Data heads = list(), rows = list();
   std::vector<CheckStatus> columns;
   for (const StatusStyle& style : kStatusStyles) {
     if (style.status != CheckStatus::fails && count_of(all, style.status) == 0) continue;
     columns.push_back(style.status);
-    heads.push_back(with_status(style.status));
+    heads.push_back(status_data(style.status));
   }
   for (const auto& [role, meaning] : kRoles) {
     const Counts counts = counts_of(results, role);
     if (counts.empty() && std::string(role) != "all") continue;
     const auto cell = [&](CheckStatus status) {
       const std::size_t n = count_of(counts, status);
-      return with_status(status, {{"n", n ? std::to_string(n) : ""}});
+      return status_data(status, {{"n", n ? std::to_string(n) : ""}});
     };
     rows.push_back(object({{"role", role},
                            {"meaning", meaning},
@@ -59,23 +59,23 @@ void set_roles(Data& data, const Results& results, const Counts& all) {
 
 /// Returns the runs whose status is not the expected one, and the checks that fail or could not be
 /// judged.
-Data failures(const Results& results, std::size_t& unexpected_endings) {
+Data list_failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
   for (const Run& run : results.runs) {
     const CaseInfo& info = results.case_info(run.case_id);
     const std::string variant = info.variants.size() > 1 ? info.variant_title(run.variant) : "";
     const auto add = [&](CheckStatus status, const std::string& what, const std::string& text) {
       if (is_failure(status))
-        out.push_back(with_status(status, {{"case_title", info.title},
+        out.push_back(status_data(status, {{"case_title", info.title},
                                            {"case_link", case_link(info.id)},
                                            {"variant_title", variant},
                                            {"what", what},
                                            {"text", text}}));
     };
-    if (is_failure(check_status(run))) ++unexpected_endings;
-    add(check_status(run), to_string(run.status), run.reason);
+    if (is_failure(find_status(run))) ++unexpected_endings;
+    add(find_status(run), to_string(run.status), run.reason);
     for (const CheckGroup& group : group_checks(run))
-      add(check_status(group.worst()), check_title(group.front()), failure_text(group));
+      add(find_status(group.worst()), check_title(group.front()), failure_text(group));
   }
   return out;
 }
@@ -103,11 +103,11 @@ struct Targets {
   }
 };
 
-Targets targets_of(const Results& results) {
+Targets targets_of_results(const Results& results) {
   Targets targets;
   for (const Run& run : results.runs)
     for (const Check& check : run.checks)
-      if (check_status(check) == CheckStatus::known_discrepancy) targets.add(run, check, results);
+      if (find_status(check) == CheckStatus::known_discrepancy) targets.add(run, check, results);
   return targets;
 }
 
@@ -127,7 +127,7 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
   std::vector<KnownDiscrepancy> known;
   for (const Run* run : family.runs)
     for (const Check& check : run->checks) {
-      if (check_status(check) != CheckStatus::known_discrepancy) continue;
+      if (find_status(check) != CheckStatus::known_discrepancy) continue;
       const CaseInfo& info = results.case_info(run->case_id);
       const auto same = [&](const KnownDiscrepancy& other) {
         return other.info == &info && other.largest().name == check.name;
@@ -158,7 +158,7 @@ Data known_data(const KnownDiscrepancy& known, const std::string& title, const R
 }
 
 /// Returns the families that have known discrepancies, each with a list of its discrepancies.
-Data known_by_family(const Results& results, const std::vector<Family>& families) {
+Data known_discrepancies_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
     const std::vector<KnownDiscrepancy> known = known_discrepancies(family, results);
@@ -181,7 +181,7 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
 
 /// Returns the most frequent reasons of known discrepancies with their numbers of values, and the
 /// number of values with other reasons.
-Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
+Data reasons_of_discrepancies(const std::vector<KnownDiscrepancy>& known) {
   constexpr std::ptrdiff_t kShown = 4;
   std::map<std::string, std::size_t> entries;
   for (const KnownDiscrepancy& discrepancy : known)
@@ -225,11 +225,11 @@ std::string overview_text(const Results& results, const std::vector<Family>& fam
 
 Data tile(const std::string& number, const std::string& title, const std::string& words,
           const std::string& link, CheckStatus status) {
-  return with_status(status,
+  return status_data(status,
                      {{"number", number}, {"title", title}, {"words", words}, {"link", link}});
 }
 
-Data tiles_of(const Results& results) {
+Data key_number_tiles(const Results& results) {
   Data tiles = list();
   const Counts solver = counts_of(results, "verification");
   const std::size_t passing = count_of(solver, CheckStatus::passes);
@@ -251,7 +251,7 @@ Data tiles_of(const Results& results) {
                  " cannot be decided.",
              "paper.html", CheckStatus::known_discrepancy));
   }
-  const Targets targets = targets_of(results);
+  const Targets targets = targets_of_results(results);
   if (!targets.printed.empty())
     tiles.push_back(tile(std::to_string(targets.printed.size()), "Printed numbers that differ",
                          "from the computed ones; " + known_checks_text(results) + " compare " +
@@ -309,9 +309,9 @@ std::string uncertainty_text(const Run& run, const Check& check) {
 }
 
 Data discrepancy_section(const Results& results, const std::vector<Family>& families) {
-  const Data known = known_by_family(results, families);
+  const Data known = known_discrepancies_by_family(results, families);
   return object({{"has_rows", known.is_non_empty_list()},
-                 {"words", targets_of(results).text()},
+                 {"words", targets_of_results(results).text()},
                  {"checks", known_checks_text(results)},
                  {"known_families", known}});
 }
@@ -333,23 +333,23 @@ Data audit_section(const Results& results, const std::vector<Family>& families,
   return object({{"summary", summary},
                  {"has_known", !known.empty()},
                  {"largest", list_of(std::vector(known.begin(), rest), row)},
-                 {"rest", reasons_of({rest, known.end()})}});
+                 {"rest", reasons_of_discrepancies({rest, known.end()})}});
 }
 
 Data summary_section(const Results& results, const std::vector<Family>& families) {
   const Counts counts = counts_of(results, "all");
   std::size_t unexpected_endings = 0;
-  const Data failure_list = failures(results, unexpected_endings);
+  const Data failure_list = list_failures(results, unexpected_endings);
   CheckStatus status = total(counts) > 0 ? CheckStatus::passes : CheckStatus::not_judged;
   if (count_of(counts, CheckStatus::known_discrepancy) > 0) status = CheckStatus::known_discrepancy;
   if (!all_checks_pass(counts) || unexpected_endings > 0) status = CheckStatus::fails;
   Data data = object({{"verdict", verdict_text(counts, unexpected_endings)},
-                      {"verdict_class", style_of(status).css_class},
+                      {"verdict_class", find_style(status).css_class},
                       {"overview", overview_text(results, families, counts)},
-                      {"bar", counts_list(counts)},
+                      {"bar", data_of_status_counts(counts)},
                       {"has_troubles", failure_list.is_non_empty_list()},
                       {"troubles", failure_list}});
-  set_roles(data, results, counts);
+  set_table_of_roles(data, results, counts);
   return data;
 }
 
@@ -358,7 +358,7 @@ Data front_page_section(const Results& results, const std::vector<Family>& famil
   const Data answer = manipulator_figures(families), questions = study_figures(studies);
   Data trust = list();
   for (const Figure& figure : studies.trust) add_figure(figure, "orders.html", trust);
-  return object({{"tiles", tiles_of(results)},
+  return object({{"tiles", key_number_tiles(results)},
                  {"trust", trust},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},

@@ -17,14 +17,14 @@ constexpr std::size_t kMaxEntries = 12;   ///< of checks with more values, the w
 /// Returns the table cells of one value. The first row also has the cells that span all rows.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
   const bool has_message = check.verdict != Verdict::pass || check.measure == "status";
-  return with_status(check_status(check), {{"entry", entry},
-                                           {"long_entry", entry.size() > 24},
-                                           {"target", target_text(check)},
-                                           {"computed", computed_text(check)},
-                                           {"difference", difference_text(check)},
-                                           {"message", has_message ? check.message : ""},
-                                           {"own_range", ""},
-                                           {"first", first}});
+  return status_data(find_status(check), {{"entry", entry},
+                                          {"long_entry", entry.size() > 24},
+                                          {"target", target_text(check)},
+                                          {"computed", computed_text(check)},
+                                          {"difference", difference_text(check)},
+                                          {"message", has_message ? check.message : ""},
+                                          {"own_range", ""},
+                                          {"first", first}});
 }
 
 /// Returns the tolerance as text. The text is empty for a bound, because the column of targets
@@ -43,7 +43,7 @@ struct Rows {
 
 /// Returns the data of one check with a row for each value.
 /// @param shared  true if all rows have the same tolerance, which is then stated once
-Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
+Data group_data(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();
   for (const Data& row : rows.list_value()) n += row.get("message")->is_string() ? 1 : 0;
@@ -63,34 +63,34 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
 }
 
 /// Returns "worst of 631: point 12", for a check of many values, of which the worst is shown.
-std::string worst_entry(const Check& worst, std::size_t entries) {
+std::string worst_entry_text(const Check& worst, std::size_t entries) {
   const std::string entry = entry_text(worst, entries);
   return "worst of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
 }
 
-Data group_of_worst(const Check& worst, const std::string& entry, Rows& table) {
+Data one_row_group(const Check& worst, const std::string& entry, Rows& table) {
   Data rows = list();
   rows.push_back(row_of(worst, entry));
-  return group_of(worst, table, rows, true);
+  return group_data(worst, table, rows, true);
 }
 
-bool same_reason(const Check& a, const Check& b) {
+bool have_same_reason(const Check& a, const Check& b) {
   return a.why == b.why && a.reference == b.reference;
 }
 
 /// Adds a row for each value of a check, or only for its worst value if there are more than
 /// kMaxEntries. Values with different references, or different reasons for their tolerances, form
 /// separate groups.
-void add_group(Data& groups, const CheckGroup& group, Rows& table) {
+void add_check_groups(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     const Check& worst = group.worst();
-    groups.push_back(group_of_worst(worst, worst_entry(worst, group.checks.size()), table));
+    groups.push_back(one_row_group(worst, worst_entry_text(worst, group.checks.size()), table));
     return;
   }
   for (std::size_t from = 0, to = 0; from < group.checks.size(); from = to) {
     const Check& first = *group.checks[from];
     bool shared = true;
-    for (to = from; to < group.checks.size() && same_reason(first, *group.checks[to]); ++to)
+    for (to = from; to < group.checks.size() && have_same_reason(first, *group.checks[to]); ++to)
       shared = shared && range_text(first) == range_text(*group.checks[to]);
     Data rows = list();
     for (std::size_t i = from; i < to; ++i) {
@@ -99,13 +99,13 @@ void add_group(Data& groups, const CheckGroup& group, Rows& table) {
       set(row, {{"own_range", shared ? "" : range_text(check)}});
       rows.push_back(row);
     }
-    groups.push_back(group_of(first, table, rows, shared));
+    groups.push_back(group_data(first, table, rows, shared));
   }
 }
 
-Data run_data(const CaseInfo& info, const Run& run, bool many) {
-  return with_status(
-      check_status(run),
+Data template_data_of_run(const CaseInfo& info, const Run& run, bool many) {
+  return status_data(
+      find_status(run),
       {{"variant", many ? info.variant_title(run.variant) : ""},
        {"variant_anchor", slug(run.variant)},
        {"run_words", run_name(info) + (run.variant == "base" ? "" : " --variant " + run.variant)},
@@ -113,14 +113,14 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
        {"reason", run.reason}});
 }
 
-Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
+Data table_of_all_checks(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
   Data table = list();
   for (const Run* run : runs) {
     // A solved variant without checks, such as a baseline of other variants, has no rows.
     if (run->checks.empty() && run->status == Status::solved) continue;
-    Data data = run_data(info, *run, runs.size() > 1);
+    Data data = template_data_of_run(info, *run, runs.size() > 1);
     Data groups = list();
-    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, rows);
+    for (const CheckGroup& group : group_checks(*run)) add_check_groups(groups, group, rows);
     data.set("groups", groups);
     table.push_back(data);
   }
@@ -128,7 +128,7 @@ Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows&
 }
 
 /// Returns the worst values of checks over all variants, the most severe checks first.
-Data headlines(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
+Data table_of_worst_checks(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& rows) {
   struct Worst {
     const Check* check;
     const Run* run;
@@ -150,9 +150,9 @@ Data headlines(const CaseInfo& info, const std::vector<const Run*>& runs, Rows& 
   Data groups = list();
   for (const Worst& w : worst | std::views::take(kMaxHeadlines)) {
     std::string entry =
-        w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
+        w.entries > 1 ? worst_entry_text(*w.check, w.entries) : entry_text(*w.check, w.entries);
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
-    Data group = group_of_worst(*w.check, entry, rows);
+    Data group = one_row_group(*w.check, entry, rows);
     set(group, {{"uncertainty", uncertainty_text(*w.run, *w.check)}});
     if (!w.check->title.empty())  // the title names the quantity
       set(group, {{"quantity", axis_label("", display_unit(w.check->unit))}});
@@ -171,9 +171,9 @@ Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
   Rows rows{results};
   return object({{"has_checks", checks > 0},
-                 {"headlines", headlines(info, runs, rows)},
+                 {"headlines", table_of_worst_checks(info, runs, rows)},
                  {"title", title},
-                 {"runs", full_table(info, runs, rows)}});
+                 {"runs", table_of_all_checks(info, runs, rows)}});
 }
 
 Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {

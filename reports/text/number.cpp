@@ -13,26 +13,26 @@ namespace trammel::reports {
 
 namespace {
 
-void drop_zeros(std::string& text) {
+void drop_trailing_zeros(std::string& text) {
   if (text.find('.') == std::string::npos) return;
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
 }
 
-std::string minus_sign(std::string text) {
+std::string typeset_minus_sign(std::string text) {
   if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
   return text;
 }
 
-std::string scientific(double x, int digits, bool trim) {
+std::string scientific_notation(double x, int digits, bool trim) {
   const std::string text = fmt::format("{:.{}e}", x, digits - 1);
   const std::size_t e = text.find('e');
   std::string mantissa = text.substr(0, e);
-  if (trim) drop_zeros(mantissa);
+  if (trim) drop_trailing_zeros(mantissa);
   const std::string power = power_of_ten(std::stoi(text.substr(e + 1)));
   if (mantissa == "1") return power;
   if (mantissa == "-1") return "\u2212" + power;
-  return minus_sign(mantissa) + "\u202f×\u202f" + power;
+  return typeset_minus_sign(mantissa) + "\u202f×\u202f" + power;
 }
 
 std::string written(double x, int digits, bool trim) {
@@ -41,15 +41,15 @@ std::string written(double x, int digits, bool trim) {
   // Rounding can change the decimal exponent: 9.9996 with four digits is 10.00.
   const std::string rounded = fmt::format("{:.{}e}", x, digits - 1);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
-  if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);
+  if (exponent < -4 || exponent >= std::max(6, digits)) return scientific_notation(x, digits, trim);
   std::string text = fmt::format("{:.{}f}", x, std::max(0, digits - 1 - exponent));
-  if (trim) drop_zeros(text);
-  return minus_sign(text);
+  if (trim) drop_trailing_zeros(text);
+  return typeset_minus_sign(text);
 }
 
 }  // namespace
 
-std::string significant(double x, int digits) {
+std::string rounded_text(double x, int digits) {
   return written(x, digits, false);
 }
 
@@ -57,13 +57,13 @@ std::string trimmed(double x, int digits) {
   return written(x, digits, true);
 }
 
-std::string with_sign(double x, int digits) {
+std::string number_with_sign(double x, int digits) {
   return (x > 0 ? "+" : "") + written(x, digits, true);
 }
 
 std::string percent_text(double x, int digits, bool sign) {
   const auto text = [&](double value) {
-    return sign ? with_sign(value, digits) : trimmed(value, digits);
+    return sign ? number_with_sign(value, digits) : trimmed(value, digits);
   };
   if (x == 0) return "0";
   if (std::abs(x) < 1e-5) return text(x);
@@ -123,7 +123,7 @@ std::string text_or_dash(harness::Number x, int digits) {
   return x ? trimmed(*x, digits) : "–";
 }
 
-std::string separators_to_spaces(std::string name) {
+std::string replace_separators(std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return c == '-' || c == '_'; }, ' ');
   return name;
@@ -134,7 +134,7 @@ std::string capitalized(std::string text) {
   return text;
 }
 
-std::string low_to_high(const std::string& low, const std::string& high) {
+std::string limits_text(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 

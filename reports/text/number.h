@@ -17,13 +17,13 @@ namespace trammel::reports {
 
 /// Returns a number with `digits` significant digits and trailing zeros. The notation is scientific
 /// below 1e-4 and from 1e6.
-[[nodiscard]] std::string significant(double x, int digits);
+[[nodiscard]] std::string rounded_text(double x, int digits);
 
 /// Returns a number with at most `digits` digits and no trailing zeros: 0.002, not 0.002000.
 [[nodiscard]] std::string trimmed(double x, int digits);
 
 /// Returns the number like the function `trimmed`, but with its sign: +0.31, −4.2 × 10⁻⁹.
-[[nodiscard]] std::string with_sign(double x, int digits);
+[[nodiscard]] std::string number_with_sign(double x, int digits);
 
 /// Returns a relative difference as a percentage; a magnitude below 1e-5 as a plain number.
 [[nodiscard]] std::string percent_text(double x, int digits, bool sign);
@@ -61,12 +61,12 @@ using harness::shortest_decimal;
 [[nodiscard]] std::string text_or_dash(harness::Number x, int digits);
 
 /// Replaces hyphens and underscores by spaces.
-[[nodiscard]] std::string separators_to_spaces(std::string name);
+[[nodiscard]] std::string replace_separators(std::string name);
 
 [[nodiscard]] std::string capitalized(std::string text);
 
 /// Returns a range as text: "3.9 to 4.1", or "4" if both limits are equal.
-[[nodiscard]] std::string low_to_high(const std::string& low, const std::string& high);
+[[nodiscard]] std::string limits_text(const std::string& low, const std::string& high);
 
 /// Appends an item to a list, after a separator unless it is the first item.
 void add_item(std::string& list, const std::string& item, const std::string& separator = ", ");

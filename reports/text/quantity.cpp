@@ -15,7 +15,7 @@ namespace trammel::reports {
 namespace {
 
 std::string words(const std::string& key) {
-  std::string name = separators_to_spaces(key);
+  std::string name = replace_separators(key);
   for (const char* direction : {" x", " y"})
     if (name.ends_with(direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);
@@ -47,7 +47,7 @@ QuantityLabel parse_quantity(const std::string& name) {
       words_in("relative_error roundoff error_over_roundoff min_error_at");
   QuantityLabel quantity;
   const std::size_t colon = name.find(':');
-  const auto [base, unit] = harness::split_unit(name);
+  const auto [base, unit] = harness::split_name(name);
   quantity.unit = display_unit(unit);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
   // A number after the colon is a mode number: frequency_Hz:1 contains the frequency of mode 1 at

@@ -23,7 +23,7 @@ Section mixed(const Section& first, const Section& second, const Mix& mix) {
 
 /// Returns the section at the fraction `at` of the distance between two sections, for linear depth
 /// and width. The ratio of the depths equals the ratio of the radii of gyration.
-Section with_linear_dimensions(const Section& first, const Section& second, double at) {
+Section section_by_dimensions(const Section& first, const Section& second, double at) {
   const double depth_ratio = std::sqrt(second.EI / second.EA / (first.EI / first.EA));
   const double width_ratio = second.area / first.area / depth_ratio;
   const double depth = 1 + at * (depth_ratio - 1), width = 1 + at * (width_ratio - 1);
@@ -39,7 +39,7 @@ Section section_at(const Member& member, double at) {
   const Section &first = member.section, &second = member.end_section;
   switch (member.taper) {
     case Taper::linear_depth_and_width:
-      return with_linear_dimensions(first, second, at);
+      return section_by_dimensions(first, second, at);
     case Taper::exponential:
       return mixed(first, second,
                    [at](double a, double b, int) { return std::pow(a, 1 - at) * std::pow(b, at); });

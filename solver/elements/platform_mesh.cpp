@@ -77,17 +77,17 @@ const std::array<RulePoint, 7>& radon_rule() {
 /// recursively into pieces that are small compared with the disc. Pieces outside the disc are
 /// skipped.
 template <class Visit>
-void integrate_near(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
+void visit_disc_points(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
   const Vector2d centroid = (t[0] + t[1] + t[2]) / 3;
   double reach = 0;
   for (const Vector2d& corner : t) reach = std::max(reach, (corner - centroid).norm());
   if ((centroid - x0).norm() > radius + reach) return;
   if (reach > radius / 16) {
     const Corners m{(t[0] + t[1]) / 2, (t[1] + t[2]) / 2, (t[2] + t[0]) / 2};
-    integrate_near({t[0], m[0], m[2]}, x0, radius, visit);
-    integrate_near({m[0], t[1], m[1]}, x0, radius, visit);
-    integrate_near({m[2], m[1], t[2]}, x0, radius, visit);
-    integrate_near(m, x0, radius, visit);
+    visit_disc_points({t[0], m[0], m[2]}, x0, radius, visit);
+    visit_disc_points({m[0], t[1], m[1]}, x0, radius, visit);
+    visit_disc_points({m[2], m[1], t[2]}, x0, radius, visit);
+    visit_disc_points(m, x0, radius, visit);
     return;
   }
   const double area = twice_area(t[0], t[1], t[2]) / 2;
@@ -103,15 +103,15 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
 /// phi is the kernel function defined at `pin_weights`.
 using Shares = std::unordered_map<Index, Vector3d>;
 
-void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
-                double radius, Shares& shares) {
+void add_node_shares_of_pin(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes,
+                            const Vector2d& x0, double radius, Shares& shares) {
   Corners t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.nodes[static_cast<std::size_t>(nodes[k])];
   const double whole = twice_area(t[0], t[1], t[2]);
   const bool six_nodes = nodes[3] >= 0;
   // Integrals of N_i phi times 1, xi and eta (columns) for each node i of the triangle (rows).
   Eigen::Matrix<double, 6, 3> moments = Eigen::Matrix<double, 6, 3>::Zero();
-  integrate_near(t, x0, radius, [&](const Vector2d& x, double area) {
+  visit_disc_points(t, x0, radius, [&](const Vector2d& x, double area) {
     const Vector2d xi = (x - x0) / radius;
     const double gap = 1 - xi.squaredNorm();
     if (gap <= 0) return;
@@ -154,7 +154,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
 std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, const Vector2d& x0,
                                                   double radius) {
   Shares shares;
-  for (const auto& nodes : mesh.triangles) add_shares(mesh, nodes, x0, radius, shares);
+  for (const auto& nodes : mesh.triangles) add_node_shares_of_pin(mesh, nodes, x0, radius, shares);
   if (shares.empty()) throw ModelError("no triangle of the platform lies within the pin's radius");
   std::vector<std::pair<Index, double>> weights;
   weights.reserve(shares.size());

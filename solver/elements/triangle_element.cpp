@@ -136,7 +136,7 @@ namespace {
 struct SideShape {
   std::array<double, 3> N, dN;
 };
-SideShape side_shape(bool quadratic, double s) {
+SideShape side_shape_functions(bool quadratic, double s) {
   if (!quadratic) return {{1 - s, s, 0}, {-1, 1, 0}};
   return {{(1 - s) * (1 - 2 * s), s * (2 * s - 1), 4 * s * (1 - s)},
           {4 * s - 3, 4 * s - 1, 4 - 8 * s}};
@@ -149,7 +149,7 @@ std::array<Vector2d, 3> side_forces(const Model& model, Index plate,
   const double thickness = model.plates[to_size(plate)].thickness;
   std::array<Vector2d, 3> forces = {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
   for (const LineQuadraturePoint& point : line_quadrature()) {
-    const auto [N, dN] = side_shape(nodes[2] >= 0, point.xi);
+    const auto [N, dN] = side_shape_functions(nodes[2] >= 0, point.xi);
     Vector2d position = Vector2d::Zero(), tangent = Vector2d::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
       if (nodes[i] < 0) continue;

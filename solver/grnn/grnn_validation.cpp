@@ -14,7 +14,7 @@ namespace trammel::solver {
 
 namespace {
 
-void check_sigmas(const Eigen::VectorXd& sigmas) {
+void validate_sigmas(const Eigen::VectorXd& sigmas) {
   require(sigmas.size() >= 1, "cross-validation requires at least one sigma");
   require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
           "every sigma of a regression network (GRNN) must be a positive normal number");
@@ -59,7 +59,7 @@ std::vector<bool> training_mask(Index samples, Index count, Split split, std::ui
 
 Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorXd& sigmas,
                                        const CrossValidation& validation) {
-  check_sigmas(sigmas);
+  validate_sigmas(sigmas);
   const Index n = network.inputs.rows();
   const std::vector<Index> fold = fold_of_samples(n, validation);
   const Eigen::Map<const Eigen::Array<Index, Eigen::Dynamic, 1>> folds(fold.data(), n);
@@ -124,7 +124,7 @@ Eigen::VectorXd default_sigma_grid(const Grnn& network, Index count) {
 
 SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
                          const CrossValidation& validation) {
-  check_sigmas(grid);
+  validate_sigmas(grid);
   require(std::ranges::is_sorted(grid, std::less_equal()), "a grid of sigmas must be ascending");
   SigmaSearch search;
   search.grid = grid;

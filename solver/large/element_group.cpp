@@ -41,7 +41,7 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
 
 /// Returns the sum of the magnitudes of all nodal loads and of the weight of point masses [N].
 /// Moments are divided by the model size.
-double load_size(const Model& model, const LargeMotionModel& large_motion, double size) {
+double load_magnitude_sum(const Model& model, const LargeMotionModel& large_motion, double size) {
   double sum = 0, mass = 0;
   const auto add = [&](const Vector3d& load) {
     sum += load.head<2>().norm() + (size > 0 ? std::abs(load[2]) / size : 0);
@@ -75,7 +75,7 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
   mean_mass_ = mean_of_positive(of_translations(mass_), 1);
   // In a model without stiffness, the loads divided by the model size define the scale of
   // stiffness.
-  const double turning = load_size(model, large_motion, size) / size;
+  const double turning = load_magnitude_sum(model, large_motion, size) / size;
   mean_stiffness_ =
       mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
 }

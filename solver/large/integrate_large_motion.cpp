@@ -50,9 +50,8 @@ IntegrationSummary run(const ConstrainedSystem& system,
 
 /// Returns the index of the coordinate to which an initial velocity applies. The result is -1 if a
 /// support holds the coordinate or the node has no rotation.
-Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
-  const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
-                                      [static_cast<std::size_t>(initial.direction)];
+Index velocity_coordinate(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
+  const Index k = system.layout().node[to_size(initial.node)][to_size(initial.direction)];
   return k < system.coordinate_count() ? k : -1;
 }
 
@@ -65,7 +64,7 @@ const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, 
   const double fastest =
       state.v.size() > 0 ? state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0.0;
   for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
-    const Index k = coordinate_of(system, initial);
+    const Index k = velocity_coordinate(system, initial);
     if (k < 0 || &initial == left_out) continue;
     const double missed = std::abs(state.v[k] - initial.value);
     if (missed > kRounding * std::max(std::abs(initial.value), fastest * scale[k])) return &initial;
@@ -91,7 +90,7 @@ std::string describe_start(const GeometricallyExactSystem& system, const Initial
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
   const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
   for (const InitialVelocity& initial : initial_velocities) {
-    if (coordinate_of(system, initial) >= 0 || initial.value == 0) continue;
+    if (velocity_coordinate(system, initial) >= 0 || initial.value == 0) continue;
     return {Status::singular, "an initial velocity is given, but a support holds node " +
                                   system.model().nodes[to_size(initial.node)].name +
                                   ", or the node has no rotation"};
@@ -100,7 +99,7 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
     start = system.reference_state();
     PrescribedVelocities given;
     for (const InitialVelocity& initial : initial_velocities) {
-      const Index k = coordinate_of(system, initial);
+      const Index k = velocity_coordinate(system, initial);
       if (k >= 0 && &initial != left_out) given.emplace_back(k, initial.value);
     }
     return make_consistent(system, start, given, step);
@@ -118,7 +117,7 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
     message << ", nor do the constraints admit the other given velocities";
   } else {
     constexpr double kRounding = 1e-9;
-    const Index k = coordinate_of(system, *refused);
+    const Index k = velocity_coordinate(system, *refused);
     const VectorXd& scale = system.scale();
     const double fastest = admitted.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
     const double value = admitted.v[k];

@@ -128,7 +128,7 @@ class ShiftedStiffness {
 
 /// Returns the factor L of the mass matrix M = L L^T, with one column for each motion that has
 /// mass. Massless coordinates have no mode and would cause eigenvalues that are round-off errors.
-MatrixXd mass_factor(const MatrixXd& M) {
+MatrixXd mass_matrix_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
   const auto pairs = symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
@@ -180,7 +180,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
 
 /// Returns w^2 of the lowest mode above the free and the soft modes (see kSoftShare), or 0 if there
 /// is none.
-double lowest_above_soft(const Spectrum& modes) {
+double lowest_above_soft_modes(const Spectrum& modes) {
   for (std::size_t k = 1; k < modes.w2.size(); ++k) {
     const double above = std::abs(modes.w2[k]);
     if (std::abs(modes.w2[k - 1]) < kSoftShare * above) return above;
@@ -192,8 +192,8 @@ double lowest_above_soft(const Spectrum& modes) {
 /// precision. All modes that follow from the inverse of such a K contain components of the free
 /// motions. K is therefore shifted by multiples of M. The shifts start above all modes and decrease
 /// to the lowest mode that is not free.
-double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
-                         const MatrixXd& L, const Spectrum& mixed) {
+double lowest_above_free_motions(const GeometricallyExactSystem& system, const State& state,
+                                 const MatrixXd& L, const Spectrum& mixed) {
   constexpr double kNear = 1e-4;  // least w^2 / shift for ten correct digits of w^2
   double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
   for (int pass = 0; pass < 8 && shift > 0; ++pass) {
@@ -253,7 +253,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.outcome = {Status::singular, "the tangent matrix is singular"};
     return found;
   }
-  const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
+  const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_matrix_factor(M);
   if (L.cols() == 0) {
     found.outcome = {Status::singular, "nothing vibrates: no movable coordinate has a mass"};
     return found;
@@ -263,8 +263,8 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   double above = 0;
   if (!modes.x.empty()) {
     const Extended lowest = K.solve((M * modes.x.front().real()).cast<long double>());
-    above = K.energy_over_roundoff(lowest) <= 1 ? lowest_above_free(system, state, L, modes)
-                                                : lowest_above_soft(modes);
+    above = K.energy_over_roundoff(lowest) <= 1 ? lowest_above_free_motions(system, state, L, modes)
+                                                : lowest_above_soft_modes(modes);
   }
   if (above > 0) {
     stiffened.emplace(system, state, -above);
@@ -274,7 +274,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
     // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,
     // all motions stiffer than the soft modes are massless.
-    const double next = lowest_above_soft(clear);
+    const double next = lowest_above_soft_modes(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;
     } else {

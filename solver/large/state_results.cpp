@@ -123,8 +123,8 @@ FreeBody sum_forces_on_member(const GeometricallyExactSystem& system, const Stat
 }
 
 /// Returns the section forces (N, V, M) at an end of an element [N, N, N m].
-Eigen::RowVector3d element_resultants(const GeometricallyExactSystem& system, const State& state,
-                                      Index index, bool first) {
+Eigen::RowVector3d section_forces_at_element_end(const GeometricallyExactSystem& system,
+                                                 const State& state, Index index, bool first) {
   if (system.layout().elements[to_size(index)].is_bar())
     return PlacedElement<Bar>{system, state, index}.resultants(first);
   return PlacedElement<Beam>{system, state, index}.resultants(first);
@@ -173,9 +173,9 @@ StaticSolution static_solution(const GeometricallyExactSystem& system, const Sta
       solution.end_rotation(m, end) =
           value_or(state.q, layout.end_rotation[to_size(m)][to_size(end)], kNaN);
     solution.resultant_start.row(m) =
-        element_resultants(system, state, layout.first_element[to_size(m)], true);
-    solution.resultant_end.row(m) =
-        element_resultants(system, state, layout.first_element[to_size(m + 1)] - 1, false);
+        section_forces_at_element_end(system, state, layout.first_element[to_size(m)], true);
+    solution.resultant_end.row(m) = section_forces_at_element_end(
+        system, state, layout.first_element[to_size(m + 1)] - 1, false);
   }
   return solution;
 }

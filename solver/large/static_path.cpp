@@ -71,7 +71,7 @@ class IllinoisBracket {
 /// square of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). The
 /// target of this ratio is a tenth. Unlike the number of iterations, the ratio is continuous, so
 /// that round-off does not change the points of the path.
-double step_factor(const std::vector<double>& correction) {
+double relative_length_of_next_step(const std::vector<double>& correction) {
   constexpr double kWantedRatio = 0.1;
   if (correction.size() < 2) return 2;
   return std::clamp(std::sqrt(kWantedRatio * correction[0] / correction[1]), 0.5, 2.0);
@@ -248,7 +248,7 @@ class PathFollower {
     const bool done = point.state.load == options_.target;
     const bool switched = critical && record_event(*critical, point, done);
     if (!switched) {
-      arc_step_ *= step_factor(point.newton.correction);
+      arc_step_ *= relative_length_of_next_step(point.newton.correction);
       direction_ = std::move(ahead);
       append(std::move(point));
     }

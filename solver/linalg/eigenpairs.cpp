@@ -33,7 +33,7 @@ constexpr double kClusterGap = 1e-3;
 // each row in registers.
 
 /// Solves A x = lambda B x in coordinates scaled to a unit diagonal of B.
-SymmetricEigenpairs scaled_eigenpairs(const MatrixXd& A, const MatrixXd& B) {
+SymmetricEigenpairs eigenpairs_by_scaling(const MatrixXd& A, const MatrixXd& B) {
   const VectorXd scale = B.diagonal().cwiseSqrt().cwiseInverse();
   SymmetricEigenpairs pairs = symmetric_eigenpairs(scale.asDiagonal() * A * scale.asDiagonal(),
                                                    scale.asDiagonal() * B * scale.asDiagonal());
@@ -130,7 +130,7 @@ class Solver {
   /// Returns all eigenvectors with mu = 1 / (lambda - s) > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
-    const auto pairs = scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
+    const auto pairs = eigenpairs_by_scaling(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
     failed_ = !pairs.converged;
     if (failed_) return MatrixXd(size_, 0);
     const double zero = static_cast<double>(size_) * kEps * pairs.value.cwiseAbs().maxCoeff();
@@ -263,7 +263,7 @@ class Solver {
     MatrixXd A = pencil_.K_products(Y);
     const MatrixXd B = Y.transpose() * times_B(Y);
     if (pencil_.shift != 0) A -= pencil_.shift * B;
-    const SymmetricEigenpairs ritz = scaled_eigenpairs(B, A);
+    const SymmetricEigenpairs ritz = eigenpairs_by_scaling(B, A);
     failed_ = failed_ || !ritz.converged;
     X_ = Y * ritz.vector.rowwise().reverse();
     values();
@@ -441,7 +441,7 @@ class Solver {
 
 /// Returns a shift t far above all relevant eigenvalues of A x = t B x. The shift is computed in
 /// coordinates scaled to a unit diagonal of A, which makes translations and rotations comparable.
-double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
+double shift_above_all_eigenvalues(const SparseMatrix& A, const SparseMatrix& B) {
   const VectorXd scale =
       A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
   const double size = (scale.asDiagonal() * B * scale.asDiagonal()).norm();
@@ -491,7 +491,7 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
   Factorization factorization = std::move(spent);
   const auto below = [&](double t) { return factorization.sturm_count(shifted_matrix(A, B, t)); };
   if (found.size() == 0) {  // the number of eigenvalues below a large shift must be 0
-    const std::optional<Index> counted = below(shift_above_all(A, B));
+    const std::optional<Index> counted = below(shift_above_all_eigenvalues(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
   if (shift_above > found[found.size() - 1] && below(shift_above) == found.size()) return 0;
@@ -528,7 +528,7 @@ struct SpectraOperator {
 /// eigenpair if its absolute error is below tolerance * eps^(2/3). With the factor, this limit is a
 /// few eps times the largest eigenvalue, which is the round-off error of that eigenvalue. Returns 1
 /// if the image of the start vector is zero or not finite.
-double fitting_scale(const SpectraOperator& op, const Eigen::VectorXd& start, double tolerance) {
+double spectra_scale(const SpectraOperator& op, const Eigen::VectorXd& start, double tolerance) {
   const Eigen::VectorXd image = op.apply(start);
   // Estimate of the largest eigenvalue.
   const double largest = op.apply(image).norm() / image.norm();
@@ -543,7 +543,7 @@ LanczosPairs largest_eigenpairs(
     const Eigen::VectorXd& start, const LanczosOptions& options) {
   constexpr Index kMaxRestarts = 300;
   SpectraOperator op{apply, start.size()};
-  op.scale = fitting_scale(op, start, options.tolerance);
+  op.scale = spectra_scale(op, start, options.tolerance);
   const LanczosPairs none{Eigen::VectorXd(0), Eigen::MatrixXd(start.size(), 0)};
   try {
     Spectra::SymEigsSolver<SpectraOperator> solver(op, options.wanted, options.subspace);

@@ -27,7 +27,7 @@ using Eigen::VectorXd;
 /// entry is the index of the corresponding entry in the value array of A. Only the given triangle
 /// of A is used.
 template <unsigned Triangle>
-SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
+SparseMatrix permuted_value_indices(const SparseMatrix& A, const Permutation& P) {
   SparseMatrix places = A;
   std::iota(places.valuePtr(), places.valuePtr() + places.nonZeros(), 0.0);
   SparseMatrix upper(A.rows(), A.cols());
@@ -103,11 +103,11 @@ struct SparseLdlt::Factors {
       P.setIdentity(A.rows());
     }
     if (triangle == Triangle::mean) {  // sorted, so that both triangles agree entry by entry
-      upper = sorted(permuted_places<Eigen::Lower>(A, P));
-      mirror = values_of(sorted(permuted_places<Eigen::Upper>(A, P)));
+      upper = sorted(permuted_value_indices<Eigen::Lower>(A, P));
+      mirror = values_of(sorted(permuted_value_indices<Eigen::Upper>(A, P)));
     } else {
-      upper = triangle == Triangle::lower ? permuted_places<Eigen::Lower>(A, P)
-                                          : permuted_places<Eigen::Upper>(A, P);
+      upper = triangle == Triangle::lower ? permuted_value_indices<Eigen::Lower>(A, P)
+                                          : permuted_value_indices<Eigen::Upper>(A, P);
     }
     from = values_of(upper);
     ldlt.analyzePattern(upper);

@@ -29,7 +29,7 @@ struct Linearization {
   SparseMatrix mass, A, G;
 };
 
-Linearization linearize(const GyroscopicPencil& pencil) {
+Linearization linearize_pencil(const GyroscopicPencil& pencil) {
   // Relative increase of the diagonal of the mass matrix, which makes it positive definite. Without
   // the increase, the matrix would be singular if a point mass has an offset from its node.
   constexpr double kHelp = 1e-12;
@@ -59,7 +59,7 @@ Linearization linearize(const GyroscopicPencil& pencil) {
 
 /// Returns the Rayleigh functional of a mode shape x: the positive root w of x^H (K + i w C - w^2
 /// M) x = 0.
-double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
+double frequency_of_shape(const GyroscopicPencil& pencil, const VectorXcd& x) {
   const VectorXd a = x.real(), b = x.imag();
   MatrixXd parts(x.size(), 2);
   parts << a, b;
@@ -84,7 +84,7 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
                                         EigenMethod method, Counters& counters) {
   constexpr Index kDenseSize = 150;
   const Index n = pencil.K.rows();
-  const auto& [mass_matrix, A, gyroscopic_matrix] = linearize(pencil);
+  const auto& [mass_matrix, A, gyroscopic_matrix] = linearize_pencil(pencil);
   const SparseMatrix &mass = mass_matrix, &G = gyroscopic_matrix;  // names that lambdas can capture
   Factorization factorization;
   factorization.compute(A);
@@ -133,7 +133,7 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
   for (Index j = 0; j < kept; ++j) {
     const VectorXcd x = V.topRows(n) * ritz.eigenvectors().col(V.cols() - 1 - j);
     modes.shape.col(j) = x.normalized();
-    modes.omega[j] = frequency_of(pencil, modes.shape.col(j));
+    modes.omega[j] = frequency_of_shape(pencil, modes.shape.col(j));
   }
   return modes;
 }
@@ -142,7 +142,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   // Solve G z = mu A z with mu = 1 / s, in coordinates scaled to a unit diagonal of |A|.
   GyroscopicModes modes;
   const Index n = pencil.K.rows();
-  const Linearization linear = linearize(pencil);
+  const Linearization linear = linearize_pencil(pencil);
   const VectorXd scale = linear.A.diagonal().cwiseAbs().unaryExpr(
       [](double d) { return d > 0 ? 1 / std::sqrt(d) : 1; });
   const auto scaled = [&scale](const SparseMatrix& matrix) -> MatrixXd {

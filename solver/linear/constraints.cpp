@@ -18,13 +18,13 @@ constexpr double kRedundant = 1e-11;
 // Smallest allowed ratio of a pivot to the largest entry of its row; bounds the growth of T.
 constexpr double kPivotThreshold = 0.25;
 
-std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
+std::vector<ConstraintRow> rows_of_supports(const Model& model, const Coordinates& coordinates) {
   std::vector<ConstraintRow> rows;
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Support& support = model.supports[i];
     for (std::size_t k = 0; k < 3; ++k) {
       if (!support.fixed[k]) continue;
-      const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
+      const Index u = coordinates.node[to_size(support.node)][k];
       if (u < 0)
         throw ModelError("the support of " + node_label(model, support.node) +
                          " fixes a rotation that the node does not have: no member end is joined "
@@ -35,8 +35,8 @@ std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& c
   return rows;
 }
 
-void add_linear_rows(const Model& model, const Coordinates& coordinates,
-                     std::vector<ConstraintRow>& rows) {
+void add_rows_of_linear_constraints(const Model& model, const Coordinates& coordinates,
+                                    std::vector<ConstraintRow>& rows) {
   for (std::size_t i = 0; i < model.constraints.size(); ++i) {
     ConstraintRow row{ConstraintRow::Source::linear, static_cast<Index>(i), {}};
     for (const auto& [coordinate, coefficient] : model.constraints[i].terms) {
@@ -49,8 +49,8 @@ void add_linear_rows(const Model& model, const Coordinates& coordinates,
   }
 }
 
-void add_rigid_rows(const Model& model, const Coordinates& coordinates,
-                    std::vector<ConstraintRow>& rows) {
+void add_rows_of_rigid_bodies(const Model& model, const Coordinates& coordinates,
+                              std::vector<ConstraintRow>& rows) {
   for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
     const RigidBody& body = model.rigid_bodies[i];
     const auto& reference = coordinates.node[to_size(body.reference)];
@@ -73,7 +73,7 @@ void add_rigid_rows(const Model& model, const Coordinates& coordinates,
 void add_inextensible_rows(const Model& model, const Mesh& mesh, std::vector<ConstraintRow>& rows) {
   for (std::size_t i = 0; i < mesh.frame.size(); ++i) {
     const FrameElement& e = mesh.frame[i];
-    if (model.members[static_cast<std::size_t>(e.member)].axially_flexible) continue;
+    if (model.members[to_size(e.member)].axially_flexible) continue;
     rows.push_back({ConstraintRow::Source::inextensible,
                     static_cast<Index>(i),
                     {{e.coordinates[3], e.direction.x()},
@@ -87,7 +87,7 @@ void add_inextensible_rows(const Model& model, const Mesh& mesh, std::vector<Con
 class Elimination {
  public:
   Elimination(const Coordinates& coordinates, double size)
-      : scale_(static_cast<std::size_t>(coordinates.size), 1.0),
+      : scale_(to_size(coordinates.size), 1.0),
         occurrences_(scale_.size(), 0),
         row_of_(scale_.size(), -1) {
     for (std::size_t u = 0; u < scale_.size(); ++u) {
@@ -110,7 +110,7 @@ class Elimination {
   /// is free.
   [[nodiscard]] const Terms* expression(Index u) const {
     const Index row = row_of_[to_size(u)];
-    return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;
+    return row < 0 ? nullptr : &expressions_[to_size(row)].terms;
   }
 
  private:
@@ -192,7 +192,7 @@ class Elimination {
         continue;
       }
       const auto count = occurrences_[to_size(u)];
-      const auto best_count = occurrences_[static_cast<std::size_t>(best)];
+      const auto best_count = occurrences_[to_size(best)];
       const double gain = std::abs(entry.value) - std::abs(row.at(best).value);
       if (count < best_count || (count == best_count && gain > -1e-9 * largest)) best = u;
     }
@@ -239,9 +239,9 @@ void build_T(const Elimination& elimination, Constraints& constraints, Index siz
 Constraints build_constraints(const Model& model, const Discretisation& discretization) {
   const Coordinates& coordinates = discretization.coordinates;
   Constraints constraints;
-  constraints.rows = support_rows(model, coordinates);
-  add_linear_rows(model, coordinates, constraints.rows);
-  add_rigid_rows(model, coordinates, constraints.rows);
+  constraints.rows = rows_of_supports(model, coordinates);
+  add_rows_of_linear_constraints(model, coordinates, constraints.rows);
+  add_rows_of_rigid_bodies(model, coordinates, constraints.rows);
   add_inextensible_rows(model, discretization.mesh, constraints.rows);
   Elimination elimination(coordinates, box_diagonal(model));
   constraints.pivot = elimination.run(constraints.rows);

@@ -14,20 +14,20 @@ bool rotates_with_node(const MemberEnd& end) {
 std::vector<bool> nodes_with_rotation(const Model& model) {
   std::vector<bool> turns(model.nodes.size(), false);
   std::vector<bool> joined(model.nodes.size(), false);
-  const auto give = [&turns](Index node) { turns[static_cast<std::size_t>(node)] = true; };
+  const auto give = [&turns](Index node) { turns[to_size(node)] = true; };
   for (const Member& member : model.members) {
     for (std::size_t end = 0; end < 2; ++end) {
-      joined[static_cast<std::size_t>(member.nodes[end])] = true;
+      joined[to_size(member.nodes[end])] = true;
       if (rotates_with_node(member.ends[end])) give(member.nodes[end]);
     }
   }
   std::vector<bool> held(model.nodes.size(), false);
   for (const RigidBody& body : model.rigid_bodies) {
     give(body.reference);
-    for (const Index node : body.attached) held[static_cast<std::size_t>(node)] = true;
+    for (const Index node : body.attached) held[to_size(node)] = true;
   }
   for (const NodalLoad& load : model.loads) {
-    if (load.force[2] != 0 && held[static_cast<std::size_t>(load.node)]) give(load.node);
+    if (load.force[2] != 0 && held[to_size(load.node)]) give(load.node);
   }
   for (const PointMass& mass : model.masses) {
     if (mass.inertia > 0 || (mass.mass > 0 && !mass.offset.isZero(0))) give(mass.node);
@@ -39,7 +39,7 @@ std::vector<bool> nodes_with_rotation(const Model& model) {
     }
   }
   for (const Support& support : model.supports) {
-    const auto node = static_cast<std::size_t>(support.node);
+    const auto node = to_size(support.node);
     if (support.fixed[2] && (joined[node] || held[node])) give(support.node);
   }
   return turns;
@@ -75,7 +75,7 @@ class Discretiser {
   }
 
   [[nodiscard]] const std::array<Index, 3>& of(Index node) const {
-    return out_.coordinates.node[static_cast<std::size_t>(node)];
+    return out_.coordinates.node[to_size(node)];
   }
 
   Index end_rotation(const Member& member, std::size_t end, bool bends) {
@@ -85,10 +85,10 @@ class Discretiser {
   }
 
   void cut(Index index) {
-    const Member& member = model_.members[static_cast<std::size_t>(index)];
+    const Member& member = model_.members[to_size(index)];
     const auto count = static_cast<double>(member.elements);
-    const Vector2d start = model_.nodes[static_cast<std::size_t>(member.nodes[0])].position;
-    const Vector2d span = model_.nodes[static_cast<std::size_t>(member.nodes[1])].position - start;
+    const Vector2d start = model_.nodes[to_size(member.nodes[0])].position;
+    const Vector2d span = model_.nodes[to_size(member.nodes[1])].position - start;
     const bool bends = section_at(member, 0.5).EI > 0;
     const Index first_rotation = end_rotation(member, 0, bends);
     FrameElement element;
@@ -119,20 +119,17 @@ class Discretiser {
 
 Index Coordinates::index_of(const Model& model, const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
-    if (coordinate.member < 0 || coordinate.member >= static_cast<Index>(member_end.size()) ||
-        coordinate.end < 0 || coordinate.end > 1) {
+    if (coordinate.member < 0 || coordinate.member >= std::ssize(member_end) ||
+        coordinate.end < 0 || coordinate.end > 1)
       throw ModelError("a constraint refers to an end of a member that does not exist");
-    }
-    const Index found = member_end[static_cast<std::size_t>(coordinate.member)]
-                                  [static_cast<std::size_t>(coordinate.end)];
+    const Index found = member_end[to_size(coordinate.member)][to_size(coordinate.end)];
     if (found >= 0) return found;
     throw ModelError(member_label(model, coordinate.member) + " does not bend: its ends have no " +
                      "rotation");
   }
   if (coordinate.node < 0 || coordinate.node >= static_cast<Index>(model.nodes.size()))
     throw ModelError("a constraint refers to a node that does not exist");
-  const Index found =
-      node[static_cast<std::size_t>(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
+  const Index found = node[to_size(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
   if (found >= 0) return found;
   throw ModelError(node_label(model, coordinate.node) +
                    " has no rotation: no member end is welded to it, no rigid body contains it");

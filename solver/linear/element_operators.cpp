@@ -10,7 +10,7 @@ namespace {
 /// Returns the sum of the nodal forces `forces(B, c, u_e)` of all elements. B is the deformation
 /// matrix of an element, c contains its rigidities, and u_e its nodal displacements.
 template <class Forces>
-Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
+Eigen::VectorXd element_force_sum(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size());
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     detail::scatter(coordinates, forces(B, c, detail::gather(coordinates, u)), sum);
@@ -34,13 +34,13 @@ Vector3d stress_by_deformation(const System& system, const Triangle& triangle, c
 }  // namespace
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
-  return sum_of_elements(system, u, [](const auto& B, const auto& c, const auto& local) {
+  return element_force_sum(system, u, [](const auto& B, const auto& c, const auto& local) {
     return (B.transpose() * c.cwiseProduct(B * local)).eval();
   });
 }
 
 Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::VectorXd& u) {
-  return sum_of_elements(system, u, [](const auto& B, const auto& c, const auto& local) {
+  return element_force_sum(system, u, [](const auto& B, const auto& c, const auto& local) {
     return detail::force_roundoff(B, c, local);
   });
 }

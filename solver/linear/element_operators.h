@@ -76,7 +76,7 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
 template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    const Member& member = system.model.members[to_size(e.member)];
     Vector3d c = frame_deformation_stiffness(e.section, member.theory, e.length);
     if (!member.axially_flexible) c[0] = 0;
     visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
@@ -148,7 +148,8 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-// Inertia forces on the unconstrained coordinates u, computed without an assembled mass matrix.
+// Inertia forces on all coordinates u before constraints are applied, without an assembled mass
+// matrix.
 
 /// Returns the mass matrix of a point mass for the coordinates (x, y, rotation) of its node.
 /// @param mass  mass [kg].
@@ -177,7 +178,7 @@ void for_each_mass_matrix(const System& system, Visit&& visit) {
   }
   for_each_plate_mass(system, visit);
   for (const PointMass& point_mass : system.model.masses)
-    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+    visit(system.coordinates.node[to_size(point_mass.node)],
           point_mass_matrix(point_mass.mass, point_mass.inertia, point_mass.offset));
   for (std::size_t i = 0; i < system.model.members.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {

@@ -23,7 +23,7 @@ Side side_of(const Triangle& triangle, std::size_t k) {
   return std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
 }
 
-std::map<Side, int> count_sides(const Model& model) {
+std::map<Side, int> count_triangles_of_sides(const Model& model) {
   std::map<Side, int> count;
   for (const Triangle& triangle : model.triangles) {
     for (std::size_t k = 0; k < 3; ++k) ++count[side_of(triangle, k)];
@@ -47,7 +47,7 @@ void add_body_force(System& system, const BodyForce& force) {
 }
 
 void add_edge_traction(System& system, const Traction& traction) {
-  const std::map<Side, int> count = count_sides(system.model);
+  const std::map<Side, int> count = count_triangles_of_sides(system.model);
   const SideLoad load = [&traction](const Vector2d& position, const Vector2d& tangent) -> Vector2d {
     const double length = tangent.norm();
     return length * traction(position, Vector2d(tangent.y(), -tangent.x()) / length);
@@ -70,10 +70,10 @@ void add_edge_traction(System& system, const Traction& traction) {
 void add_line_load(System& system, const LineLoad& load) {
   for (const FrameElement& e : system.mesh.frame) {
     if (e.is_bar()) continue;
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    const Member& member = system.model.members[to_size(e.member)];
     const double phi = shear_ratio(e.section, member.theory, e.length);
     const Matrix6d R = frame_transformation_matrix(e.direction);
-    const Vector2d& start = system.mesh.positions[static_cast<std::size_t>(e.nodes[0])];
+    const Vector2d& start = system.mesh.positions[to_size(e.nodes[0])];
     Vector6d force = Vector6d::Zero();
     for (const LineQuadraturePoint& point : line_quadrature()) {
       Vector3d q = load(start + point.xi * e.length * e.direction);
@@ -102,8 +102,8 @@ struct Squares {
   [[nodiscard]] Values relative() const { return (error / exact).sqrt(); }
 };
 
-MembraneFieldPoint membrane_point(const System& system, const Triangle& triangle,
-                                  const TriangleInterpolation& at, const Eigen::VectorXd& u) {
+MembraneFieldPoint membrane_field_point(const System& system, const Triangle& triangle,
+                                        const TriangleInterpolation& at, const Eigen::VectorXd& u) {
   const Eigen::Matrix<double, 2, 6> d =
       detail::gather(system.coordinates.triangle_dofs<12>(triangle), u).reshaped(2, 6);
   const Eigen::Matrix2d gradient = d * at.gradient.transpose();  // rows u, v; columns d/dx, d/dy
@@ -126,8 +126,8 @@ double energy_density(const Material& material, const Vector3d& s) {
 /// Returns displacements and section forces at the fraction xi of the length of a frame element.
 /// `world` contains its end displacements in world axes. Axial force and shear force are uniform in
 /// the element.
-BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
-                           double xi) {
+BeamFieldPoint frame_fields_at_point(const FrameElement& e, BeamTheory theory,
+                                     const Vector6d& world, double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);
   const Vector3d motion =
       frame_interpolation(phi, L, xi) * (frame_transformation_matrix(e.direction) * world);
@@ -155,7 +155,7 @@ MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
     };
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
       const auto at = evaluate_shape_functions(system.model, triangle, point.area_coordinates);
-      const MembraneFieldPoint h = membrane_point(system, triangle, at, u);
+      const MembraneFieldPoint h = membrane_field_point(system, triangle, at, u);
       const MembraneFieldPoint x = exact(at.position);
       const MembraneFieldPoint error{h.displacement - x.displacement, h.rotation - x.rotation,
                                      h.stress - x.stress};
@@ -184,7 +184,7 @@ BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q, const Bea
     if (has_shear_deformation(theory)) compliance[4] = 1 / e.section.kappa_GA;
     for (const LineQuadraturePoint& point : line_quadrature()) {
       const Values x = exact_at(point.xi);
-      const Values error = values_of(frame_point(e, theory, world, point.xi)) - x;
+      const Values error = values_of(frame_fields_at_point(e, theory, world, point.xi)) - x;
       const double weight = point.weight * e.length;
       sum.add(weight, error.square(), x.square());
       energy.add(weight, Squares<1>::Values((compliance * error.square()).sum()),
@@ -192,7 +192,7 @@ BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q, const Bea
     }
     for (const double end : {0.0, 1.0}) {
       const Values x = exact_at(end);
-      const Values error = values_of(frame_point(e, theory, world, end)) - x;
+      const Values error = values_of(frame_fields_at_point(e, theory, world, end)) - x;
       nodal_error = nodal_error.binaryExpr(error.abs(), &nan_max);
       nodal_size = nodal_size.max(x.abs());
     }

@@ -100,7 +100,7 @@ using NamedRows = std::vector<std::pair<std::string, Index>>;
 
 /// Returns the names of the coordinates of the model, such as "node B along x", with their indices
 /// in u.
-NamedRows named_rows(const System& system) {
+NamedRows names_of_coordinates(const System& system) {
   const Model& model = system.model;
   NamedRows rows;
   const auto add = [&rows](const std::string& name, Index row) {
@@ -123,7 +123,7 @@ NamedRows named_rows(const System& system) {
 
 /// Returns the index of the first entry whose magnitude equals the largest magnitude up to
 /// round-off errors.
-Index first_largest(const VectorXd& x) {
+Index index_of_first_largest(const VectorXd& x) {
   const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
   Index i = 0;
   while (std::abs(x[i]) < enough) ++i;
@@ -134,7 +134,7 @@ Index first_largest(const VectorXd& x) {
 /// column and 0 in all others.
 void reduce(MatrixXd& U) {
   for (Index j = 0; j < U.cols(); ++j) {
-    const Index pivot = first_largest(U.col(j));
+    const Index pivot = index_of_first_largest(U.col(j));
     if (U(pivot, j) == 0) continue;
     U.col(j) /= U(pivot, j);
     for (Index k = 0; k < U.cols(); ++k)
@@ -143,10 +143,10 @@ void reduce(MatrixXd& U) {
 }
 
 std::string describe(const VectorXd& mode, const NamedRows& rows) {
-  VectorXd left = mode / mode[first_largest(mode)];
+  VectorXd left = mode / mode[index_of_first_largest(mode)];
   std::string text;
   for (std::size_t entry = 0; entry < std::min(kMaxEntries, rows.size()); ++entry) {
-    const Index i = first_largest(left);
+    const Index i = index_of_first_largest(left);
     if (std::abs(left[i]) < kRoundoff) break;
     char value[32];
     std::snprintf(value, sizeof value, " %.3g", left[i]);
@@ -159,7 +159,7 @@ std::string describe(const VectorXd& mode, const NamedRows& rows) {
 }  // namespace
 
 std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
-  const NamedRows rows = named_rows(system);
+  const NamedRows rows = names_of_coordinates(system);
   const MatrixXd u = free_to_length_matrix(system) * modes.basis;
   MatrixXd U(std::ssize(rows), u.cols());
   for (std::size_t i = 0; i < rows.size(); ++i)

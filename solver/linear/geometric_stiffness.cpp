@@ -74,7 +74,7 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
 
 /// Returns a matrix of zero stresses with one row for each point of a triangle at which stresses
 /// are stored.
-Eigen::MatrixX3d no_stress(const Model& model) {
+Eigen::MatrixX3d zero_stresses_of_triangles(const Model& model) {
   Index rows = 0;
   for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
   return Eigen::MatrixX3d::Zero(rows, 3);
@@ -112,7 +112,7 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
     const FrameElement& e = system.mesh.frame[to_size(i)];
     const double axial = state.axial[i], axial_variation = state.axial_variation[i];
     if (axial == 0 && axial_variation == 0) continue;
-    const BeamTheory theory = model.members[static_cast<std::size_t>(e.member)].theory;
+    const BeamTheory theory = model.members[to_size(e.member)].theory;
     visit(e.coordinates, frame_chord_rotation_and_bending(e.direction, e.length),
           geometric_rigidity(e, theory, axial, axial_variation));
   }
@@ -140,7 +140,7 @@ void add_turning(Index rotation, double moment, std::vector<TurningPart>& parts)
 /// arm. R is the x or y component of the arm. A rotation θ shifts the end of the arm by -R θ^2 / 2
 /// to the second order. The force F on the end of the arm therefore does the work -F R θ^2 / 2. The
 /// multiplier of the constraint is -F.
-double arm_moment(const System& system, const ConstraintRow& row, double multiplier) {
+double rigid_arm_moment(const System& system, const ConstraintRow& row, double multiplier) {
   if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) return 0;
   const Index attached = row.terms[0].first;
   const Index node = system.coordinates.node_of[to_size(attached)];
@@ -164,7 +164,7 @@ BodyForces body_forces(const System& system) {
   const Model& model = system.model;
   BodyForces body;
   for (const FrameElement& e : system.mesh.frame) {
-    const Vector2d& load = model.members[static_cast<std::size_t>(e.member)].load;
+    const Vector2d& load = model.members[to_size(e.member)].load;
     body.element.emplace_back(load + e.section.mass_per_length * model.gravity);
   }
   for (const PointMass& point_mass : model.masses)
@@ -175,7 +175,7 @@ BodyForces body_forces(const System& system) {
 VectorXd axial_forces(const System& system, const VectorXd& u, const VectorXd& multipliers) {
   VectorXd axial(static_cast<Index>(system.mesh.frame.size()));
   for (Index i = 0; i < axial.size(); ++i) {
-    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    const FrameElement& e = system.mesh.frame[to_size(i)];
     const Vector2d shift(u[e.coordinates[3]] - u[e.coordinates[0]],
                          u[e.coordinates[4]] - u[e.coordinates[1]]);
     axial[i] = e.section.EA / e.length * e.direction.dot(shift);
@@ -194,17 +194,17 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   state.axial = axial_forces(system, u, multipliers);
   state.axial_variation.resize(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
-    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    const FrameElement& e = system.mesh.frame[to_size(i)];
     state.axial_variation[i] = -e.length * e.direction.dot(body.element[to_size(i)]);
   }
-  state.stress = no_stress(system.model);
+  state.stress = zero_stresses_of_triangles(system.model);
   for_each_stress_point(system.model,
                         [&](Index row, const Triangle& triangle, const Vector3d& at, double) {
                           state.stress.row(row) = plate_stress(system, triangle, at, u);
                         });
   for (Index i = 0; i < multipliers.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[to_size(i)];
-    const double moment = arm_moment(system, row, multipliers[i]);
+    const double moment = rigid_arm_moment(system, row, multipliers[i]);
     if (moment != 0) add_turning(row.terms[2].first, moment, state.turning);
     if (row.source != ConstraintRow::Source::linear) continue;
     const auto& rail = system.model.constraints[to_size(row.index)].rail;
@@ -234,14 +234,14 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
   }
-  roundoff.stress = no_stress(system.model);
+  roundoff.stress = zero_stresses_of_triangles(system.model);
   for_each_stress_point(system.model, [&](Index row, const Triangle& triangle, const Vector3d& at,
                                           double) {
     roundoff.stress.row(row).head<2>().setConstant(plate_stress_roundoff(system, triangle, at, u));
   });
   const VectorXd force = internal_force_roundoff(system, u);
   for (const ConstraintRow& row : system.constraints.rows) {
-    const double moment = std::abs(arm_moment(system, row, force[row.terms.front().first]));
+    const double moment = std::abs(rigid_arm_moment(system, row, force[row.terms.front().first]));
     if (moment != 0) add_turning(row.terms[2].first, moment, roundoff.turning);
   }
   return roundoff;

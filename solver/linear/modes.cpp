@@ -30,7 +30,7 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 
 /// Returns a shift s < 0 of the magnitude of the lowest elastic eigenvalue, for models with rigid
 /// modes. The matrix K - s M is then as well-conditioned as the elastic part of K.
-double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
+double shift_with_rigid_modes(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
   const VectorXd diagonal = system.K.diagonal(), squared_length = summed_squared_lengths(system);
   const auto largest = diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
@@ -114,7 +114,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     pencil.K = &K;
     pencil.B = &system.M;
     if (free.count() > 0) {
-      pencil.shift = floating_shift(system, free.basis, counters);
+      pencil.shift = shift_with_rigid_modes(system, free.basis, counters);
       factorization.compute(shifted_matrix(system.K, system.M, pencil.shift));
       ++counters.factorizations;
     }

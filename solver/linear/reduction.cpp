@@ -16,7 +16,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Returns the free coordinates of the nodes that divide members into elements, one set per member.
 /// The sets are not coupled with each other.
-std::vector<std::vector<Index>> interior_sets(const System& system) {
+std::vector<std::vector<Index>> interior_coordinates_of_members(const System& system) {
   const auto free_coordinate = [&system](Index u) {
     return u < 0 ? Index{-1} : system.constraints.free[to_size(u)];
   };
@@ -113,7 +113,7 @@ MatrixXd residual_responses(const SparseMatrix& K, const SparseMatrix& M, const 
 /// followed by the amplitudes of modes and static responses of each interior set.
 SparseMatrix reduction_matrix(const System& system, Index modes, const std::vector<VectorXd>& loads,
                               Counters& counters) {
-  const std::vector<std::vector<Index>> sets = interior_sets(system);
+  const std::vector<std::vector<Index>> sets = interior_coordinates_of_members(system);
   const Index size = system.K.rows();
   std::vector<bool> interior(to_size(size), false);
   for (const std::vector<Index>& set : sets)
@@ -166,7 +166,7 @@ SparseMatrix project_matrix(const SparseMatrix& matrix, const SparseMatrix& R) {
 }
 
 /// Returns the system in the reduced coordinates p, with q = R p.
-System in_coordinates(const System& system, const SparseMatrix& R) {
+System projected_system(const System& system, const SparseMatrix& R) {
   System reduced = system;
   reduced.T = system.T * R;
   reduced.K = project_matrix(system.K, R);
@@ -180,7 +180,7 @@ System in_coordinates(const System& system, const SparseMatrix& R) {
 System reduce_members(const System& system, Index modes, const std::vector<VectorXd>& loads) {
   if (modes < 0) throw ModelError("the number of modes of a reduction must not be negative");
   Counters counters = system.counters;
-  System reduced = in_coordinates(system, reduction_matrix(system, modes, loads, counters));
+  System reduced = projected_system(system, reduction_matrix(system, modes, loads, counters));
   reduced.counters = counters;
   return reduced;
 }
@@ -219,7 +219,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
   const MatrixXd beyond = residual_responses(system.K, system.M, shape, responses);
   MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
   basis << shape, beyond;
-  System reduced = in_coordinates(system, basis.sparseView());
+  System reduced = projected_system(system, basis.sparseView());
   reduced.counters = counters;
   return reduced;
 }

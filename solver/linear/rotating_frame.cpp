@@ -38,7 +38,7 @@ Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_
 /// Returns the integral of rho N^T A N over the volume of a frame element, in element axes. The
 /// symbol rho is the density. N interpolates the translations, and A is a 2 x 2 matrix. Lumped mass
 /// acts on translations only.
-Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
+Matrix6d mass_integral(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
   Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
     const Matrix6d M = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
@@ -89,10 +89,10 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
   const Eigen::Matrix2d P = distance_projector(axis);
   for (const FrameElement& e : system.mesh.frame) {
     if (e.section.mass_per_length == 0) continue;
-    const Member& member = model.members[static_cast<std::size_t>(e.member)];
+    const Member& member = model.members[to_size(e.member)];
     const Matrix6d R = frame_transformation_matrix(e.direction);
     const auto world = [&](const Eigen::Matrix2d& A) -> Matrix6d {
-      return R.transpose() * frame_mass_with(A, e, member) * R;
+      return R.transpose() * mass_integral(A, e, member) * R;
     };
     const auto r = R.topLeftCorner<2, 2>();
     Matrix6d S = world(r * P * r.transpose());
@@ -113,7 +113,7 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
   });
   for (const PointMass& point_mass : model.masses) {
     const Eigen::Matrix<double, 2, 3> B = center_of_mass_interpolation(point_mass);
-    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+    visit(system.coordinates.node[to_size(point_mass.node)],
           (point_mass.mass * B.transpose() * P * B).eval(),
           (point_mass.mass * B.transpose() * perpendicular_matrix() * B).eval());
   }
@@ -225,7 +225,7 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
   const VectorXd undeformed = VectorXd::Zero(system.T.rows());
   const VectorXd rhs =
       system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
-  // Returns the internal forces of a state q under the centrifugal forces at displacements u.
+  // Returns the internal forces of a state q. The displacements u determine the centrifugal forces.
   const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
     return prestress_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
                         body_forces(system, frame, u), before);

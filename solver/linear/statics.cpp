@@ -120,8 +120,8 @@ SectionForces section_forces(const Vector6d& end, double length) {
 /// Returns |N| / A + |M| / W at a point of an element [Pa]. The result is 0 at the pointed end of a
 /// taper. The result is NaN if the section has no area or modulus and the force or moment exceeds
 /// `roundoff`.
-double stress_at(const Member& member, const FrameElement& e, double from_start, double x,
-                 const Vector3d& forces, const ForceRoundoff& roundoff) {
+double point_stress(const Member& member, const FrameElement& e, double from_start, double x,
+                    const Vector3d& forces, const ForceRoundoff& roundoff) {
   const double length = e.length * static_cast<double>(member.elements);
   const Section section = section_at(member, std::min(1.0, (from_start + x) / length));
   const bool tip = (section.area <= 0 && e.section.area > 0) ||
@@ -140,7 +140,7 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
   double largest = 0;
   const auto evaluate = [&](double x) {
     if (!(x >= 0 && x <= e.length)) return;
-    largest = nan_max(largest, stress_at(member, e, from_start, x, f.at(x, e.length), roundoff));
+    largest = nan_max(largest, point_stress(member, e, from_start, x, f.at(x, e.length), roundoff));
   };
   evaluate(0);
   evaluate(e.length);
@@ -357,8 +357,8 @@ namespace {
 
 /// Adds the forces of nodes on members to `sum`. The forces are computed from section forces and
 /// member loads.
-void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
-                 VectorXd& sum) {
+void add_member_forces(const System& system, const ElasticState& state,
+                       const StaticSolution& solution, VectorXd& sum) {
   const ElementForces forces = end_forces(system, state);
   const auto& frame = system.mesh.frame;
   for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -418,7 +418,7 @@ double largest_relative_imbalance(const System& system, const ElasticState& stat
                                   const StaticSolution& solution, const VectorXd& terms) {
   VectorXd sum = -acting_load(system, state);
   VectorXd magnitudes = terms;
-  add_members(system, state, solution, sum);
+  add_member_forces(system, state, solution, sum);
   add_other_elements(system, state, sum);
   add_constraints(system, state, solution, sum, magnitudes);
   // Constraints transfer the round-off error of a force to other coordinates, for example along a

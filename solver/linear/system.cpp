@@ -12,7 +12,7 @@ namespace {
 std::vector<SpringElement> spring_elements(const Model& model, const Coordinates& coordinates) {
   std::vector<SpringElement> springs;
   const auto of = [&](Index node, std::size_t k) {
-    return node < 0 ? Index{-1} : coordinates.node[static_cast<std::size_t>(node)][k];
+    return node < 0 ? Index{-1} : coordinates.node[to_size(node)][k];
   };
   for (const Spring& spring : model.springs) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
 
 /// Returns an empty sum of element matrices with an explicit zero at each diagonal position. The
 /// sparsity pattern therefore includes the free coordinates to which no element contributes.
-Projection empty_sum(const System& system) {
+Projection empty_element_matrix_sum(const System& system) {
   const auto& triangles = system.model.triangles;
   const bool quadratic = !triangles.empty() && triangles.front().quadratic();
   const Index size = system.constraints.free_count;
@@ -46,7 +46,7 @@ Projection empty_sum(const System& system) {
 }
 
 SparseMatrix stiffness(const System& system, Counters& counters) {
-  Projection sum = empty_sum(system);
+  Projection sum = empty_element_matrix_sum(system);
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     sum.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
     ++counters.element_evaluations;
@@ -55,7 +55,7 @@ SparseMatrix stiffness(const System& system, Counters& counters) {
 }
 
 SparseMatrix mass(const System& system, Counters& counters) {
-  Projection sum = empty_sum(system);
+  Projection sum = empty_element_matrix_sum(system);
   for_each_mass_matrix(system, [&](const auto& coordinates, const auto& m) {
     sum.add(coordinates, m);
     if (coordinates.size() >= 6) ++counters.element_evaluations;
@@ -89,7 +89,7 @@ void count_effects(const System& system, bool has_inertia, Counters& counters) {
   if (has_inertia) counters.add(Effect::inertia, 1);
 }
 
-Eigen::VectorXd weight_of(const System& system) {
+Eigen::VectorXd weight_of_system(const System& system) {
   const Vector2d& gravity = system.model.gravity;
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(system.coordinates.size);
   if (gravity.isZero(0)) return weight;
@@ -164,7 +164,7 @@ System assemble(const Model& model, Effects active) {
   stiffness(system, system.counters).swap(system.K);
   if (has_inertia) mass(system, system.counters).swap(system.M);
   count_effects(system, has_inertia, system.counters);
-  system.weight = weight_of(system);
+  system.weight = weight_of_system(system);
   system.load = applied_load(system) + system.weight;
   system.f = system.T.transpose() * system.load;
   return system;

@@ -63,7 +63,7 @@ class Validator {
   }
 
   [[nodiscard]] const Vector2d& position(Index node) const {
-    return model_.nodes[static_cast<std::size_t>(node)].position;
+    return model_.nodes[to_size(node)].position;
   }
 
   void nodes() const {
@@ -202,12 +202,12 @@ bool has_inertia(const Member& member) {
          member.ends[1].inertia > 0;
 }
 
-bool is_sprung(const Member& member) {
+bool has_sprung_end(const Member& member) {
   return std::any_of(member.ends.begin(), member.ends.end(),
                      [](const MemberEnd& end) { return end.fixity == EndFixity::sprung; });
 }
 
-bool has_weight(const Model& model) {
+bool any_part_weighs(const Model& model) {
   if (model.gravity.isZero(0)) return false;
   return std::any_of(model.members.begin(), model.members.end(), weighs) ||
          std::any_of(model.masses.begin(), model.masses.end(),
@@ -216,7 +216,7 @@ bool has_weight(const Model& model) {
                      [](const Plate& plate) { return plate.material.rho > 0; });
 }
 
-void remove_mass(Section& section) {
+void remove_mass_of_section(Section& section) {
   section.mass_per_length = 0;
   section.inertia_per_length = 0;
 }
@@ -232,8 +232,8 @@ void restrict_effects(Member& member, Effects active) {
     if (!active.has(Effect::link_mass)) end.inertia = 0;
   }
   if (active.has(Effect::link_mass)) return;
-  remove_mass(member.section);
-  remove_mass(member.end_section);
+  remove_mass_of_section(member.section);
+  remove_mass_of_section(member.end_section);
 }
 
 }  // namespace
@@ -246,10 +246,10 @@ Effects applicable_effects(const Model& model) {
       effects = effects.with(Effect::shear);
     if (has_rotary_inertia(member.theory) && has_rotary_inertia_per_length(member))
       effects = effects.with(Effect::rotary_inertia);
-    if (is_sprung(member)) effects = effects.with(Effect::joint_compliance);
+    if (has_sprung_end(member)) effects = effects.with(Effect::joint_compliance);
     if (has_inertia(member)) effects = effects.with(Effect::link_mass);
   }
-  if (has_weight(model)) effects = effects.with(Effect::gravity);
+  if (any_part_weighs(model)) effects = effects.with(Effect::gravity);
   return effects;
 }
 

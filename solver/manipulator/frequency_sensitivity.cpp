@@ -60,8 +60,8 @@ SeededLink make_link(const LinkDesignOf<Dual>& link, const Dual& nominal,
   return {link_section(link, nominal), {span.x() / length, span.y() / length}, length};
 }
 
-SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture,
-                         const DesignParameter& parameter) {
+SeededDesign seed_design_derivatives(const ManipulatorDesign& design, const Posture& posture,
+                                     const DesignParameter& parameter) {
   SeededDesign seeded;
   PlatformDesignOf<Dual> platform{.thickness = Dual(design.platform.thickness),
                                   .material = lifted(design.platform.material),
@@ -202,7 +202,7 @@ class SetDerivative {
 constexpr double kSameFrequency = 1e-7;
 
 /// Computes at least `count` modes, including all modes of the last set of repeated frequencies.
-ModalSolution modes_in_full_sets(const System& system, Index count) {
+ModalSolution modes_in_complete_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
   Index wanted = std::min(all, count + kSpareModes);
@@ -272,7 +272,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
                                            Index count) {
   const System system = assemble(build_manipulator(design, pose));
   const Posture posture = inverse_kinematics(design.geometry, pose);
-  const ModalSolution modes = modes_in_full_sets(system, count);
+  const ModalSolution modes = modes_in_complete_sets(system, count);
   FrequencySensitivity result;
   result.outcome = modes.outcome;
   result.evidence = modes.evidence;
@@ -286,7 +286,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
   std::vector<std::optional<SeededDesign>> designs(parameters.size());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (has_exact_derivative(parameters[p].kind))
-      designs[p] = seed_design(design, posture, parameters[p]);
+      designs[p] = seed_design_derivatives(design, posture, parameters[p]);
   }
   for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
     if (set.first >= kept) break;

@@ -37,7 +37,7 @@ struct LimbAngles {
 /// Returns x, or 0 if x is negative. Round-off errors can make a factor of Heron's formula slightly
 /// negative if the limb is straight.
 template <Real T>
-T not_negative(const T& x) {
+T clamp_to_nonnegative(const T& x) {
   return value(x) > 0 ? x : T(0);
 }
 
@@ -45,9 +45,9 @@ template <Real T>
 LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
   using std::atan2;
   using std::sqrt;
-  const T stretch = not_negative<T>((a + b) - r);
-  const T fold_out = not_negative<T>((b - a) + r);
-  const T fold_in = not_negative<T>((a - b) + r);
+  const T stretch = clamp_to_nonnegative<T>((a + b) - r);
+  const T fold_out = clamp_to_nonnegative<T>((b - a) + r);
+  const T fold_in = clamp_to_nonnegative<T>((a - b) + r);
   const T sum = a + b + r;
   const T opposite = sqrt(T(fold_out * stretch));
   const T adjacent = sqrt(T(sum * fold_in));
@@ -57,12 +57,12 @@ LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
 
 /// Returns the angle theta_a of the proximal link [rad], which may be outside (-pi, pi].
 template <Real T>
-T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode) {
+T active_joint_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode) {
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
 /// Returns the reason why limb i cannot reach the platform, or an empty text if the limb can.
-std::string out_of_reach(std::size_t i, double a, double b, double r) {
+std::string reason_out_of_reach(std::size_t i, double a, double b, double r) {
   const double roundoff = 4 * kEps * (a + b + r), beyond = r - (a + b),
                within = std::abs(a - b) - r;
   if (beyond <= roundoff && within <= roundoff && r > roundoff) return {};
@@ -130,7 +130,7 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
     posture.C[i] = P + rotated(g.platform[i], pose.phi);
     const Vector2d p_AC = posture.C[i] - g.base[i];
     const double r = std::hypot(p_AC.x(), p_AC.y());
-    const std::string why = out_of_reach(i, g.proximal[i], g.distal[i], r);
+    const std::string why = reason_out_of_reach(i, g.proximal[i], g.distal[i], r);
     if (!why.empty()) {
       posture.outcome.status = Status::singular;
       posture.outcome.reason += (posture.outcome.reason.empty() ? "" : "; ") + why;
@@ -140,7 +140,7 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
     }
     const LimbAngles<double> limb = solve_limb(g.proximal[i], g.distal[i], r);
     const int mode = g.working_mode[i];
-    posture.active[i] = wrapped(active_angle(p_AC, limb, mode));
+    posture.active[i] = wrapped(active_joint_angle(p_AC, limb, mode));
     posture.B[i] = g.base[i] + g.proximal[i] * unit(posture.active[i]);
     const Vector2d d = posture.C[i] - posture.B[i];
     posture.passive[i] = wrapped(std::atan2(d.y(), d.x()));
@@ -157,7 +157,7 @@ Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C, const T& 
                                  const T& distal, int working_mode) {
   const Vector2d p_AC = C - A;
   const LimbAngles<T> limb = solve_limb(proximal, distal, std::hypot(p_AC.x(), p_AC.y()));
-  const T angle = active_angle(p_AC, limb, working_mode);
+  const T angle = active_joint_angle(p_AC, limb, working_mode);
   return A.cast<T>() + proximal * unit(angle);
 }
 

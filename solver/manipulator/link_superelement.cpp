@@ -37,7 +37,7 @@ struct ElementChain {
 
 /// Returns motions of all nodes, one per column, with the given values at the given coordinates and
 /// zero elsewhere.
-MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
+MatrixXd node_motions(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
   MatrixXd U = MatrixXd::Zero(size, values.cols());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     U.row(coordinates[i]) = values.row(static_cast<Index>(i));
@@ -48,10 +48,10 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
 /// fixed. The modes satisfy X^T K X = I and are in descending order of the period. Bending and
 /// axial modes are computed in separate calls, so that the couplings between bending and axial
 /// modes are exactly zero.
-MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
+MatrixXd modes_of_coordinates(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
-  const MatrixXd unit = motions_of(coordinates, MatrixXd::Identity(count, count), size);
+  const MatrixXd unit = node_motions(coordinates, MatrixXd::Identity(count, count), size);
   const MatrixXd K = chain.projected_stiffness(unit);
   const MatrixXd M = unit.transpose() * chain.mass_times(unit);
   const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
@@ -59,8 +59,8 @@ MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinat
       scale.asDiagonal() * M * scale.asDiagonal(), scale.asDiagonal() * K * scale.asDiagonal());
   const double zero = 1e-13 * pairs.value.cwiseAbs().maxCoeff();
   const Index kept = (pairs.value.array() > zero).count();
-  return motions_of(coordinates,
-                    scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse(), size);
+  return node_motions(coordinates,
+                      scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse(), size);
 }
 
 double largest_off_diagonal(const MatrixXd& A) {
@@ -97,7 +97,7 @@ LinkSuperelement condense_member(const Member& member, double length) {
   MatrixXd X(3 * (n + 1), 0);
   for (const auto& coordinates : {axial, bending}) {
     if (coordinates.empty()) continue;
-    const MatrixXd modes = modes_of(chain, coordinates);
+    const MatrixXd modes = modes_of_coordinates(chain, coordinates);
     X.conservativeResize(Eigen::NoChange, X.cols() + modes.cols());
     X.rightCols(modes.cols()) = modes;
   }

@@ -43,7 +43,7 @@ bool has_area(const std::array<Vector2d, 3>& c) {
 /// connection is a spring for `sprung`, a weld for the type `rigid`, and a hinge for all other
 /// types.
 template <class Kind>
-void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
+void set_end_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
   if (joint.kind == Kind::sprung) {
     require(positive(joint.stiffness), "the spring stiffness of the " + name + " must be positive");
     end.fixity = EndFixity::sprung;
@@ -102,10 +102,10 @@ void add_limb(const ManipulatorDesign& design, std::size_t i, Model& model) {
   model.supports.push_back({A, kA + k, {true, true, grounded}});
   Member proximal = make_member(design.proximal[i], g.proximal[i], A, B, kA + k);
   Member distal = make_member(design.distal[i], g.distal[i], B, C, kB + k);
-  set_joint(design.active[i], ActiveKind::locked, "active joint " + A, proximal.ends[0]);
-  set_joint(design.elbow[i], ElbowKind::welded, "elbow joint " + B, distal.ends[0]);
-  set_joint(design.platform_joint[i], PlatformJointKind::welded, "platform joint " + C,
-            distal.ends[1]);
+  set_end_joint(design.active[i], ActiveKind::locked, "active joint " + A, proximal.ends[0]);
+  set_end_joint(design.elbow[i], ElbowKind::welded, "elbow joint " + B, distal.ends[0]);
+  set_end_joint(design.platform_joint[i], PlatformJointKind::welded, "platform joint " + C,
+                distal.ends[1]);
   model.members.push_back(std::move(proximal));
   model.members.push_back(std::move(distal));
 }

@@ -59,7 +59,7 @@ double largest_angular_velocity(const NominalMotion& motion) {
 namespace {
 
 /// Returns J = dR/dangle R^-1 of the rotation matrix R about the z axis.
-const Eigen::Matrix3d& generator() {
+const Eigen::Matrix3d& rotation_generator() {
   static const Eigen::Matrix3d J = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 0).finished();
   return J;
 }
@@ -73,9 +73,9 @@ const Eigen::Matrix3d& generator() {
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
   Matrix6d J6 = Matrix6d::Zero();
-  J6.topLeftCorner<3, 3>() = J6.bottomRightCorner<3, 3>() = generator();
-  const Eigen::Matrix<double, 3, 6> X = generator() * N - N * J6;
-  const Eigen::Matrix<double, 3, 6> Y = generator() * X - X * J6;
+  J6.topLeftCorner<3, 3>() = J6.bottomRightCorner<3, 3>() = rotation_generator();
+  const Eigen::Matrix<double, 3, 6> X = rotation_generator() * N - N * J6;
+  const Eigen::Matrix<double, 3, 6> Y = rotation_generator() * X - X * J6;
   element.first_derivative += N.transpose() * weights.asDiagonal() * X;
   element.second_derivative += N.transpose() * weights.asDiagonal() * Y;
 }
@@ -148,7 +148,7 @@ void add_point_masses(const System& system, std::vector<MovingElement>& elements
   }
 }
 
-void add_scalars(const System& system, std::vector<MovingElement>& elements) {
+void add_scalar_elements(const System& system, std::vector<MovingElement>& elements) {
   const Model& model = system.model;
   MovingElement scalar;
   scalar.layout = MovingElement::Layout::scalar;
@@ -194,7 +194,7 @@ std::vector<MovingElement> moving_elements(const System& system,
   }
   add_triangles(system, elements);
   add_point_masses(system, elements);
-  add_scalars(system, elements);
+  add_scalar_elements(system, elements);
   for (MovingElement& element : elements)
     element.k = element.B.transpose() * element.c.asDiagonal() * element.B;
   return elements;

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-NominalMotion motion_at_start(const Model& model) {
+NominalMotion nominal_motion_at_start(const Model& model) {
   NominalMotion motion;
   const Index nodes = std::ssize(model.nodes);
   for (Eigen::MatrixX2d& values : motion.node) values.setZero(nodes, 2);
@@ -86,7 +86,7 @@ void scatter_local(const MovingElement& element, const Vector2d& direction, cons
 MovingSystem::MovingSystem(const Model& model, const MovingSystemOptions& options)
     : options_(options),
       start_(assemble_at_start(model, options)),
-      motion_(motion_at_start(model)),
+      motion_(nominal_motion_at_start(model)),
       constraints_(start_, motion_, options.gyroscopic) {
   if (options_.condensed) links_ = condense_members(model, start_.mesh);
   elements_ = moving_elements(start_, links_);
@@ -295,7 +295,7 @@ namespace {
 /// treated as regular.
 constexpr double kSingularPivotRatio = 1e-13;
 
-Model loaded_model(const ElastodynamicsOptions& options, double time) {
+Model model_with_loads_at_time(const ElastodynamicsOptions& options, double time) {
   Model model = build_manipulator(options.design, at(options.path, time).pose);
   if (!options.wrench.isZero(0)) model.loads.push_back({model.find_node("P"), options.wrench});
   return model;
@@ -307,7 +307,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
     : options_(options),
       is_at_rest_(solver::is_at_rest(options.path)),
       rigid_(rigid_manipulator(options.design)),
-      moving_(loaded_model(options, built_at),
+      moving_(model_with_loads_at_time(options, built_at),
               {.inertia = options.elastic_inertia, .gyroscopic = options.gyroscopic}) {
   rigid_.gravity = options.gravity;
   start_ = inverse_dynamics(rigid_, at(options.path, built_at), wrench(built_at)).q;

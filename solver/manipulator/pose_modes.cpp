@@ -39,7 +39,7 @@ struct Task {
   PoseModes& result;
 };
 
-Model model_at(const Task& task, const Pose& pose) {
+Model model_at_pose(const Task& task, const Pose& pose) {
   return restrict_effects(build_manipulator(task.design, pose), task.options.active);
 }
 
@@ -77,7 +77,7 @@ class BlockSolver {
       if (solve(at, posture)) continue;
       ++by_itself;
       store(task_, at,
-            solve_modes(assemble(model_at(task_, pose), task_.options.active),
+            solve_modes(assemble(model_at_pose(task_, pose), task_.options.active),
                         {.count = task_.options.count}),
             counters);
     }
@@ -248,7 +248,7 @@ class BlockSolver {
 /// Solves blocks of poses on threads, one thread per solver. The result of each block depends only
 /// on the poses of the block.
 template <class Solver>
-void solve_blocks(const Task& task, std::vector<Solver> solvers) {
+void solve_blocks_of_poses(const Task& task, std::vector<Solver> solvers) {
   std::atomic<std::size_t> next = 0;
   const std::size_t poses = task.poses.size();
   const auto work = [&](Solver& solver) {
@@ -267,8 +267,8 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
 }
 
 /// Returns the first pose that all limbs can reach, or an empty value.
-std::optional<Pose> first_reached(const ManipulatorGeometry& geometry,
-                                  const std::vector<Pose>& poses) {
+std::optional<Pose> first_reachable_pose(const ManipulatorGeometry& geometry,
+                                         const std::vector<Pose>& poses) {
   for (const Pose& pose : poses) {
     if (inverse_kinematics(geometry, pose).outcome.solved()) return pose;
   }
@@ -286,14 +286,14 @@ PoseModes solve_pose_modes(const ManipulatorDesign& whole_design, const std::vec
   result.zero_energy_mode_count.resize(poses.size());
   result.frequency.setConstant(options.count, std::ssize(poses), kNaN);
   result.roundoff = result.frequency;
-  const std::optional<Pose> start = first_reached(design.geometry, poses);
+  const std::optional<Pose> start = first_reachable_pose(design.geometry, poses);
   if (!start) {
     for (std::size_t i = 0; i < poses.size(); ++i)
       result.outcome[i] = inverse_kinematics(design.geometry, poses[i]).outcome;
     return result;
   }
   const Task task{design, poses, options, result};
-  const MovingPencil pencil(model_at(task, *start), design.geometry, *start);
+  const MovingPencil pencil(model_at_pose(task, *start), design.geometry, *start);
   result.counters = pencil.counters();
   result.free_coordinates = pencil.free_coordinate_count();
   result.coupling = pencil.largest_coupling();
@@ -302,9 +302,9 @@ PoseModes solve_pose_modes(const ManipulatorDesign& whole_design, const std::vec
   const auto threads = std::min(blocks, options.threads > 0 ? options.threads : cores);
   const Index rows = options.count + kGuard;
   if (rows <= 6) {
-    solve_blocks(task, std::vector(to_size(threads), BlockSolver<6>(task, pencil)));
+    solve_blocks_of_poses(task, std::vector(to_size(threads), BlockSolver<6>(task, pencil)));
   } else {
-    solve_blocks(task, std::vector(to_size(threads), BlockSolver<16>(task, pencil)));
+    solve_blocks_of_poses(task, std::vector(to_size(threads), BlockSolver<16>(task, pencil)));
   }
   return result;
 }

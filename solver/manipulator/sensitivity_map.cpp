@@ -73,7 +73,7 @@ std::array<Annulus, 3> reach_annuli(const ManipulatorGeometry& g, double phi) {
   return all;
 }
 
-bool reached_by_others(const std::array<Annulus, 3>& all, const Annulus& own, const Vector2d& P) {
+bool in_reach_of_others(const std::array<Annulus, 3>& all, const Annulus& own, const Vector2d& P) {
   return std::ranges::all_of(all, [&](const Annulus& limb) {
     const double r = (P - limb.center).norm();
     return &limb == &own || (r >= limb.inner && r <= limb.outer);
@@ -86,7 +86,7 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
   for (Index k = 0; k <= points && radius > 0; ++k) {
     const auto angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(points);
     const Vector2d P = own.center + radius * Vector2d(std::cos(angle), std::sin(angle));
-    if (reached_by_others(all, own, P)) {
+    if (in_reach_of_others(all, own, P)) {
       arc.push_back(P);
     } else if (!arc.empty()) {
       arcs.push_back(std::exchange(arc, {}));

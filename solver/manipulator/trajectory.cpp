@@ -74,17 +74,17 @@ TrajectoryPoint evaluate(const Spline& spline, double time) {
           (p1 - p0) / h + (h / 6) * ((1 - 3 * a * a) * a0 + (3 * b * b - 1) * a1), a * a0 + b * a1};
 }
 
-bool is_still(const Circle& circle) {
+bool is_still_path(const Circle& circle) {
   return circle.radius == 0 || circle.angular_speed == 0;
 }
 
-bool is_still(const Spline& spline) {
+bool is_still_path(const Spline& spline) {
   return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
 }
 
 /// Returns true if a line or a rest-to-rest motion ends at the pose at which it starts.
 template <class Way>
-bool is_still(const Way& line) {
+bool is_still_path(const Way& line) {
   return line.from.vector() == line.to.vector();
 }
 
@@ -164,7 +164,7 @@ std::pair<double, double> time_span(const Path& path) {
 }
 
 bool is_at_rest(const Path& path) {
-  return std::visit([](const auto& p) { return is_still(p); }, path);
+  return std::visit([](const auto& p) { return is_still_path(p); }, path);
 }
 
 std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step) {

@@ -17,7 +17,7 @@ std::array<LineQuadraturePoint, 5> gauss_5() {
            {(1 + outer) / 2, light}}};
 }
 
-std::array<TriangleQuadraturePoint, 25> conical_product() {
+std::array<TriangleQuadraturePoint, 25> conical_product_rule() {
   std::array<TriangleQuadraturePoint, 25> points;
   std::size_t k = 0;
   for (const LineQuadraturePoint& a : line_quadrature()) {
@@ -30,7 +30,7 @@ std::array<TriangleQuadraturePoint, 25> conical_product() {
   return points;
 }
 
-std::array<TriangleQuadraturePoint, 6> dunavant() {
+std::array<TriangleQuadraturePoint, 6> dunavant_rule() {
   constexpr double a = 0.44594849091596488631832925388305;
   constexpr double b = 0.09157621350977074345957146340220;
   constexpr double wa = 0.22338158967801146569500700843312;
@@ -51,12 +51,12 @@ const std::array<LineQuadraturePoint, 5>& line_quadrature() {
 }
 
 const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature() {
-  static const std::array<TriangleQuadraturePoint, 25> points = conical_product();
+  static const std::array<TriangleQuadraturePoint, 25> points = conical_product_rule();
   return points;
 }
 
 const std::array<TriangleQuadraturePoint, 6>& triangle_quadrature_of_degree_4() {
-  static const std::array<TriangleQuadraturePoint, 6> points = dunavant();
+  static const std::array<TriangleQuadraturePoint, 6> points = dunavant_rule();
   return points;
 }
 

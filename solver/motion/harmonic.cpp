@@ -25,8 +25,8 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// Solves (K + i w C - w^2 M) x = f with Rayleigh damping C = mass * M + stiffness * K. The matrix
 /// is (1 + i w stiffness) K + (i w mass - w^2) M, which is real without damping.
-VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
-                       const VectorXd& f) {
+VectorXcd solve_response_directly(const System& system, const RayleighDamping& damping,
+                                  double omega, const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
@@ -103,7 +103,7 @@ void HarmonicSolver::compute_modes(Index damped_count) {
 VectorXcd HarmonicSolver::at(double frequency) const {
   const double omega = kTwoPi * frequency;
   if (omega == 0 && !held_) return {};
-  VectorXcd q = solve_direct(system_, damping_.rayleigh, omega, unsuperposed_load_);
+  VectorXcd q = solve_response_directly(system_, damping_.rayleigh, omega, unsuperposed_load_);
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;

@@ -16,8 +16,8 @@ struct Stop {
 };
 
 /// Returns the stops: sample times, breakpoints after the start, and the end, in ascending order.
-std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
-                           const std::vector<double>& breakpoints) {
+std::vector<Stop> make_stops(const TransientOptions& options, const std::vector<double>& samples,
+                             const std::vector<double>& breakpoints) {
   // Round-off error of a time that is a multiple of a step [s]. If the distance of a breakpoint
   // from all other stops is larger, the breakpoint becomes a separate stop, so that short load
   // pulses are resolved.
@@ -49,7 +49,7 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
 
 /// Returns the smallest number of equal steps in the time `span` [s] for which no step exceeds
 /// `step` [s]. The number is a multiple of `multiple`.
-double equal_steps(double span, double step, int multiple = 1) {
+double equal_step_count(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }
 
@@ -63,7 +63,7 @@ class HalvedSteps {
   void begin(double time, double stop) {
     begin_ = time;
     end_ = stop;
-    const double steps = std::min(1e12, equal_steps(stop - time, options_.step));
+    const double steps = std::min(1e12, equal_step_count(stop - time, options_.step));
     const double largest = (stop - time) / steps;
     if (!(std::abs(largest - largest_) <= 1e-12 * largest_)) largest_ = largest;
     size_ = std::ldexp(largest_, -level_);
@@ -108,8 +108,8 @@ class FreeSteps {
   void begin(double time, double stop) {
     stop_ = stop;
     longest_ = options_.adaptive ? std::numeric_limits<double>::infinity()
-                                 : (stop - time) / equal_steps(stop - time, options_.step,
-                                                               options_.steps_in_multiples_of);
+                                 : (stop - time) / equal_step_count(stop - time, options_.step,
+                                                                    options_.steps_in_multiples_of);
     failures_ = 0;
     failed_size_ = 0;
   }
@@ -278,9 +278,9 @@ std::vector<double> even_times(double start, double end, double step) {
 TransientSummary integrate(Stepper& stepper, const TransientOptions& options,
                            const std::vector<double>& breakpoints, StepSizes sizes) {
   if (sizes == StepSizes::halved)
-    return TimeIntegration<HalvedSteps>(stepper, options).run(stops_of(options, {}, breakpoints));
+    return TimeIntegration<HalvedSteps>(stepper, options).run(make_stops(options, {}, breakpoints));
   return TimeIntegration<FreeSteps>(stepper, options)
-      .run(stops_of(options, options.sample_times, breakpoints));
+      .run(make_stops(options, options.sample_times, breakpoints));
 }
 
 }  // namespace trammel::solver

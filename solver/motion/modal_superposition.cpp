@@ -190,7 +190,7 @@ namespace {
 
 /// Evaluates the Taylor series of the impulse response. The series is used for w t < 1 and c t < 1,
 /// where the closed forms suffer from cancellation.
-ImpulseResponse by_series(double omega, double decay, double t) {
+ImpulseResponse impulse_response_by_series(double omega, double decay, double t) {
   const double c = decay * t;
   const double w2 = omega * t * omega * t;
   // The series of the impulse response is h = t sum b_k with b_0 = 1. `before` and `b` are two
@@ -236,7 +236,7 @@ Decay integrate_decay(double rate, double t) {
 
 /// Computes the impulse response as the difference of two exponential decays whose rates differ
 /// strongly.
-ImpulseResponse by_decays(double omega, double decay, double root, double t) {
+ImpulseResponse impulse_response_by_decays(double omega, double decay, double root, double t) {
   const double fast = decay + root, slow = omega * omega / fast;
   const double gap = 2 * root;
   const double e_slow = std::exp(-slow * t);
@@ -252,10 +252,10 @@ ImpulseResponse by_decays(double omega, double decay, double root, double t) {
 }  // namespace
 
 ImpulseResponse impulse_response(double omega, double decay, double t) {
-  if (omega * t < 1 && decay * t < 1) return by_series(omega, decay, t);
+  if (omega * t < 1 && decay * t < 1) return impulse_response_by_series(omega, decay, t);
   const double D = (decay - omega) * (decay + omega);
   const double root = std::sqrt(std::abs(D));
-  if (D > decay * decay / 4) return by_decays(omega, decay, root, t);
+  if (D > decay * decay / 4) return impulse_response_by_decays(omega, decay, root, t);
   const double x = root * t;
   const double envelope = std::exp(-decay * t);
   double even = 0;  // envelope * cosh(sqrt(D) t)

@@ -16,8 +16,8 @@ namespace {
 
 /// Solves K q = f. Iterative refinement takes the skew-symmetric part of K into account, which is
 /// not factored.
-void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f, VectorXd& q,
-                   Counters& counters) {
+void solve_with_refinement(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
+                           VectorXd& q, Counters& counters) {
   VectorXd correction;
   q.setZero();
   for (int pass = 0; pass < 4; ++pass) {
@@ -58,11 +58,11 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
         return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
     }
     matrices.compute_load(time, f);
-    solve_refined(matrices.K(), factor, f, q_then, counters);
+    solve_with_refinement(matrices.K(), factor, f, q_then, counters);
     v += (kSlope[static_cast<std::size_t>(i)] / gap) * q_then;
   }
   f.noalias() -= matrices.C() * v;
-  solve_refined(matrices.K(), factor, f, q, counters);
+  solve_with_refinement(matrices.K(), factor, f, q, counters);
   return {};
 }
 
@@ -101,7 +101,7 @@ namespace {
 /// Returns the smallest ratio of a diagonal entry of M to that of `added`, over all coordinates
 /// with positive entries in both matrices. A much smaller multiple of `added` is negligible for
 /// every mass, even if a step contains many periods.
-double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
+double least_diagonal_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();
   for (Index i = 0; i < mass.size(); ++i)
@@ -121,7 +121,7 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
     damped_ = damped;
     if (damped && matrices.norm_C() == 0) continue;
     const SparseMatrix& added = damped ? matrices.C() : matrices.K();
-    share_ = kShare * std::min(damped ? h : h * h, least_ratio(matrices.M(), added));
+    share_ = kShare * std::min(damped ? h : h * h, least_diagonal_ratio(matrices.M(), added));
     SparseMatrix sum = matrices.M();
     sum += share_ * added;
     ++counters.factorizations;

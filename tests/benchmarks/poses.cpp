@@ -23,7 +23,7 @@ double seconds() {
 }
 
 void run(Index elements, Index count, bool one_by_one) {
-  const ManipulatorDesign design = with_elements(elements);
+  const ManipulatorDesign design = meshed_design(elements);
   std::vector<Pose> poses;
   for (Index i = 0; i < count; ++i) {
     const double t = 0.01 * static_cast<double>(i);

@@ -424,7 +424,7 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
   return answer;
 }
 
-Answer along_path(const Json& model, const Json& mechanism, const Json& options, bool torques) {
+Answer answer_on_path(const Json& model, const Json& mechanism, const Json& options, bool torques) {
   require_known_keys(options, {"bodies", "torque_residuals"}, "option");
   Manipulator m(mechanism);
   if (torques) load(m, model);
@@ -447,7 +447,7 @@ Answer solve(const Json& given) {
   const Json& options = given["analysis"].begin().value();
   if (kind == "large-motion") return motion(given["model"], options);
   if (kind == "inverse-dynamics" || kind == "kinematics")
-    return along_path(given["model"], given["export"]["mechanism"], options, kind[0] == 'i');
+    return answer_on_path(given["model"], given["export"]["mechanism"], options, kind[0] == 'i');
   if (kind == "forward-dynamics")
     return driven(given["model"], given["export"]["mechanism"], options);
   throw Cannot("unsupported analysis '" + kind + "'");

@@ -69,7 +69,7 @@ using Maker = std::function<Input(std::size_t)>;
 
 /// Limits the remaining processor time of this process [s]. Also sets a limit of wall time, which
 /// is much larger.
-void limit_time(double seconds) {
+void limit_processor_time(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - double(whole)))}};
   setitimer(ITIMER_PROF, &timer, nullptr);
@@ -86,12 +86,12 @@ void test_batch(Board& board, const Maker& make, std::size_t first, std::size_t 
     Slot& slot = board[i];
     const Input input = make(i);
     slot.stage = Slot::Stage::reading;
-    limit_time(kReading_s);
+    limit_processor_time(kReading_s);
     const Verdict verdict = test_input(input, folder, [&] {
       slot.stage = Slot::Stage::computing;
-      limit_time(limit_s);
+      limit_processor_time(limit_s);
     });
-    limit_time(kReading_s);
+    limit_processor_time(kReading_s);
     slot.close(verdict.outcome, verdict.message);
   }
   fs::remove_all(folder);
@@ -129,7 +129,7 @@ void test_all(Board& board, const Maker& make, const Options& options) {
                      outcome.text);
       if (i + 1 < last) left.emplace_back(i + 1, last);
     };
-    if (harness::run_in_processes(tasks, {options.jobs, kMemory}, ended) != 0) return;
+    if (harness::run_in_worker_processes(tasks, {options.jobs, kMemory}, ended) != 0) return;
     batches = std::move(left);
   }
 }
@@ -191,7 +191,7 @@ std::size_t run_files(const std::vector<fs::path>& files, Options options) {
   return print_findings(board, make, "file", options);
 }
 
-std::size_t run_made(const Options& options) {
+std::size_t run_generated_inputs(const Options& options) {
   const Mutator mutator(std::vector<Json>{sample_results()});
   const bool one = options.only >= 0;
   const Maker make = [&](std::size_t i) {
@@ -233,7 +233,7 @@ int run(int argc, char** argv) {
   std::cout << "corpus\n";
   const std::size_t again = run_files(known, options);
   std::cout << "new\n";
-  return again + run_made(options) == 0 ? 0 : 1;
+  return again + run_generated_inputs(options) == 0 ? 0 : 1;
 }
 
 }  // namespace

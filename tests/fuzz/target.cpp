@@ -59,7 +59,7 @@ void compute(const Case& given, const std::string& variant, bool all) {
       for (CheckResult& judged : evaluate_check(check, context))
         run.checks.push_back(std::move(judged));
   }
-  run = parse_run(to_bytes(run));
+  run = parse_run(serialize(run));
   (void)results::read_results(results::to_json(collect_results({run}, {given}, references)));
 }
 

@@ -27,7 +27,7 @@ std::vector<std::string> lines_of_file(const fs::path& file) {
   return lines;
 }
 
-Cells cells_of(const std::string& line) {
+Cells cells_of_table_row(const std::string& line) {
   Cells cells;
   for (std::size_t at = 1, end; (end = line.find(" |", at)) != std::string::npos; at = end + 2)
     cells.push_back(end > at ? line.substr(at + 1, end - at - 1) : "");
@@ -44,14 +44,14 @@ std::vector<Cells> table(const fs::path& file, const std::string& head) {
     } else if (inside && line.rfind("|", 0) != 0) {
       break;
     } else if (inside && line.rfind("|---", 0) != 0) {
-      rows.push_back(cells_of(line));
+      rows.push_back(cells_of_table_row(line));
     }
   }
   return rows;
 }
 
 /// Returns the texts between backquotes.
-std::vector<std::string> names_in(const std::string& cell) {
+std::vector<std::string> names_in_backquotes(const std::string& cell) {
   static const std::regex name("`([^`]+)`");
   std::vector<std::string> names;
   for (std::sregex_iterator at(cell.begin(), cell.end(), name), end; at != end; ++at)
@@ -59,7 +59,7 @@ std::vector<std::string> names_in(const std::string& cell) {
   return names;
 }
 
-std::string first_part(const std::string& path) {
+std::string first_path_component(const std::string& path) {
   return path.substr(0, path.find('/'));
 }
 
@@ -81,7 +81,7 @@ struct Rooms {
 
   [[nodiscard]] std::set<std::string> tops() const {
     std::set<std::string> found;
-    for (const std::string& room : order) found.insert(first_part(room));
+    for (const std::string& room : order) found.insert(first_path_component(room));
     return found;
   }
 
@@ -99,7 +99,7 @@ std::vector<std::string> resolve(const std::string& name, const std::string& roo
   const auto has = [&](const std::string& key) {
     return std::find(order.begin(), order.end(), key) != order.end();
   };
-  const std::string near = first_part(room) + "/" + name;
+  const std::string near = first_path_component(room) + "/" + name;
   if (has(near)) return {near};
   std::vector<std::string> found;
   for (const std::string& other : order)
@@ -112,13 +112,13 @@ const Rooms& rooms() {
     Rooms rooms;
     const auto rows = table(kRoot / "CONTRIBUTING.md", "| room |");
     for (const Cells& cells : rows) {
-      rooms.order.push_back(names_in(cells.at(0)).at(0));
+      rooms.order.push_back(names_in_backquotes(cells.at(0)).at(0));
       rooms.arrows[rooms.order.back()] = cells.at(2);
     }
     for (const std::string& room : rooms.order) {
       std::set<std::string>& all = rooms.all[room];
       all.insert(room);
-      for (const std::string& name : names_in(rooms.arrows[room]))
+      for (const std::string& name : names_in_backquotes(rooms.arrows[room]))
         for (const std::string& target : resolve(name, room, rooms.order)) {
           rooms.direct[room].insert(target);
           all.insert(rooms.all[target].begin(), rooms.all[target].end());
@@ -129,13 +129,13 @@ const Rooms& rooms() {
   return read;
 }
 
-/// Returns the external headers that each top folder must not include, by the first part of their
-/// paths.
+/// Returns the external headers that each top folder must not include. A header is named by the
+/// first part of its paths.
 std::map<std::string, std::set<std::string>> forbidden() {
   std::map<std::string, std::set<std::string>> found;
   for (const Cells& cells : table(kRoot / "CONTRIBUTING.md", "| folder | must not include |")) {
-    const auto names = names_in(cells.at(1));
-    found[names_in(cells.at(0)).at(0)] = {names.begin(), names.end()};
+    const auto names = names_in_backquotes(cells.at(1));
+    found[names_in_backquotes(cells.at(0)).at(0)] = {names.begin(), names.end()};
   }
   return found;
 }
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(folder_includes_only_folders_above_it_in_the_table) {
   for (const std::string& room : rooms().order) {
     BOOST_TEST(fs::exists(kRoot / room), "there is no " << room);
     BOOST_TEST(above.count(room) == 0U, room << " has two rows");
-    for (const std::string& name : names_in(rooms().arrows.at(room)))
+    for (const std::string& name : names_in_backquotes(rooms().arrows.at(room)))
       BOOST_TEST(!resolve(name, room, rooms().order).empty(), room << " names " << name);
     const auto direct = rooms().direct.find(room);
     if (direct != rooms().direct.end())
@@ -187,10 +187,10 @@ BOOST_AUTO_TEST_CASE(every_include_obeys_the_folder_dependencies) {
     for (const std::string& line : lines_of_file(kRoot / file)) {
       std::smatch match;
       if (!std::regex_search(line, match, include)) continue;
-      const std::string target = match[1], part = first_part(target);
+      const std::string target = match[1], part = first_path_component(target);
       const bool own = part != target && (tops.count(part) > 0 || part == "tests");
       const bool allowed = own ? rooms().all.at(room).count(rooms().row_of(target)) > 0
-                               : outside.at(first_part(room)).count(part) == 0;
+                               : outside.at(first_path_component(room)).count(part) == 0;
       BOOST_TEST(allowed, file << " must not include " << target);
     }
   }
@@ -210,9 +210,9 @@ BOOST_AUTO_TEST_CASE(readme_lists_the_subfolders_and_their_dependencies) {
   for (const std::string& top : rooms().tops()) {
     std::map<std::string, std::string> listed;
     for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
-      listed[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
+      listed[top + "/" + names_in_backquotes(cells.at(0)).at(0)] = cells.back();
     for (const std::string& room : rooms().order) {
-      if (first_part(room) != top) continue;
+      if (first_path_component(room) != top) continue;
       BOOST_TEST(listed.count(room) == 1U, top << "/README.md has no row for " << room);
       BOOST_TEST(listed[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
       listed.erase(room);
@@ -248,8 +248,8 @@ BOOST_AUTO_TEST_CASE(test_folders_mirror_the_code_folders) {
     if (!is_code(entry.path())) continue;
     const fs::path folder = fs::relative(entry.path().parent_path(), kRoot / "tests");
     const std::string name = folder.generic_string();
-    if (tops.count(first_part(name)) == 0) continue;
-    const bool mirrored = name != first_part(name) &&
+    if (tops.count(first_path_component(name)) == 0) continue;
+    const bool mirrored = name != first_path_component(name) &&
                           std::any_of(rooms().order.begin(), rooms().order.end(),
                                       [&](const std::string& room) { return lies_in(room, name); });
     BOOST_TEST(mirrored, "tests/" << name << " mirrors no room");
@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(test_folders_mirror_the_code_folders) {
 BOOST_AUTO_TEST_CASE(readme_of_the_tests_lists_their_folders) {
   std::set<std::string> listed, there;
   for (const Cells& cells : table(kRoot / "tests/README.md", "| folder |"))
-    for (const std::string& name : names_in(cells.at(0))) listed.insert(name);
+    for (const std::string& name : names_in_backquotes(cells.at(0))) listed.insert(name);
   for (const auto& entry : fs::directory_iterator(kRoot / "tests"))
     if (entry.is_directory()) there.insert(entry.path().filename().string());
   BOOST_TEST(listed == there, boost::test_tools::per_element());

@@ -73,7 +73,7 @@ void join(std::string& text, const std::string& line) {
 }
 
 /// Comments of a source. Comments on successive lines are one text. Formulas end sentences.
-Strings comments(std::istream& in, const std::string& mark) {
+Strings comments_of_source(std::istream& in, const std::string& mark) {
   Strings texts(1);
   for (std::string line; std::getline(in, line);) {
     const std::size_t begin = line.find_first_not_of(' ');
@@ -96,7 +96,7 @@ Strings comments(std::istream& in, const std::string& mark) {
 }
 
 /// Paragraphs, items of lists and cells of tables, without blocks of code.
-Strings paragraphs(std::istream& in) {
+Strings paragraphs_of_document(std::istream& in) {
   static const std::regex item(R"(\s*([-*]|\d+\.|#+) (.*))");
   Strings texts(1);
   bool is_code = false;
@@ -124,9 +124,9 @@ void collect_texts(const nlohmann::json& json, Strings& texts) {
 Strings texts_of_file(const fs::path& file) {
   std::ifstream in(file);
   const std::string extension = file.extension().string();
-  if (extension == ".h" || extension == ".cpp") return comments(in, "//");
-  if (extension == ".py") return comments(in, "#");
-  if (extension == ".md") return paragraphs(in);
+  if (extension == ".h" || extension == ".cpp") return comments_of_source(in, "//");
+  if (extension == ".py") return comments_of_source(in, "#");
+  if (extension == ".md") return paragraphs_of_document(in);
   Strings texts;
   if (extension == ".json") collect_texts(nlohmann::json::parse(in), texts);
   return texts;
@@ -156,8 +156,8 @@ BOOST_AUTO_TEST_CASE(each_prose_rule_detects_its_violation) {
     BOOST_TEST(broken_rules(text, false) == Strings{rule}, boost::test_tools::per_element());
   BOOST_TEST(broken_rules("Residual of `beside` and \"the whole\" [N].", false).empty());
   std::istringstream code("/// Returns\n/// it.\nint a;  // [m]\n"), page("A line\nof `b`.\n- c\n");
-  BOOST_TEST(comments(code, "//").at(0) == "Returns it.");
-  BOOST_TEST(paragraphs(page).at(0) == "A line of `b`.");
+  BOOST_TEST(comments_of_source(code, "//").at(0) == "Returns it.");
+  BOOST_TEST(paragraphs_of_document(page).at(0) == "A line of `b`.");
 }
 
 BOOST_AUTO_TEST_CASE(all_texts_obey_the_prose_rules) {

@@ -36,7 +36,7 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-void signal_at(Kind stage) {
+void send_signal_at_stage(Kind stage) {
   if (kind != stage || getpid() != program) return;
   kind = Kind::none;
   kill(program, static_cast<int>(number));
@@ -115,23 +115,23 @@ ssize_t writev(int file, const iovec* parts, int count) {
 }
 
 FILE* fopen64(const char* file, const char* mode) {
-  if (ends_with(file, "/own.json")) signal_at(Kind::read);
+  if (ends_with(file, "/own.json")) send_signal_at_stage(Kind::read);
   return next<decltype(&fopen64)>("fopen64")(file, mode);
 }
 
 pid_t fork() {
   const pid_t child = next<decltype(&fork)>("fork")();
-  if (child > 0) signal_at(Kind::compute);
+  if (child > 0) send_signal_at_stage(Kind::compute);
   return child;
 }
 
 int rename(const char* from, const char* to) {
-  if (ends_with(to, "/results.json")) signal_at(Kind::result);
+  if (ends_with(to, "/results.json")) send_signal_at_stage(Kind::result);
   return next<decltype(&rename)>("rename")(from, to);
 }
 
 FILE* popen(const char* command, const char* mode) {
-  signal_at(Kind::draw);
+  send_signal_at_stage(Kind::draw);
   return next<decltype(&popen)>("popen")(command, mode);
 }
 

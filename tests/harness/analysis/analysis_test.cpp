@@ -16,7 +16,7 @@ using namespace trammel::testing;
 
 namespace {
 
-Json on_a_circle(Json json, int points) {
+Json manipulator_on_circle(Json json, int points) {
   json["model"].erase("pose");
   json["model"]["trajectory"]["circle"] = {
       {"center_m", {0.25, 0.144}}, {"radius_m", 0.01}, {"points", points}, {"step_s", 0.01}};
@@ -27,12 +27,12 @@ Json on_a_circle(Json json, int points) {
 
 BOOST_AUTO_TEST_CASE(fine_six_node_mesh_is_drawn_with_corner_nodes_only) {
   Json json = testing::quarter_ring();
-  const AnalysisResult coarse = result_of(json);
+  const AnalysisResult coarse = analyze_json(json);
   BOOST_REQUIRE(coarse.drawing.has_value());
   BOOST_TEST(coarse.drawing->nodes.size() == 45U);
   BOOST_TEST(coarse.drawing->triangles.at(0).size() == 6U);
   json["model"]["plates"]["ring"]["divisions"] = 16;
-  const AnalysisResult fine = result_of(json);
+  const AnalysisResult fine = analyze_json(json);
   BOOST_REQUIRE(fine.drawing.has_value());
   BOOST_TEST(fine.drawing->nodes.size() == 17U * 33);
   BOOST_TEST(fine.drawing->triangles.at(0).size() == 3U);
@@ -43,14 +43,14 @@ BOOST_AUTO_TEST_CASE(section_without_fiber_distance_has_no_stress_quantity) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
-  BOOST_TEST(result_of(json).quantities.count("stress_Pa:AB") == 0U);
+  BOOST_TEST(analyze_json(json).quantities.count("stress_Pa:AB") == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_per_point) {
   for (const char* kind : {"statics", "kinematics"}) {
-    Json json = on_a_circle(testing::manipulator(), 50);
+    Json json = manipulator_on_circle(testing::manipulator(), 50);
     json["analysis"] = {{kind, Json::object()}};
-    const AnalysisResult result = result_of(json);
+    const AnalysisResult result = analyze_json(json);
     BOOST_TEST(result.outcome.solved());
     BOOST_TEST(result.quantities.size() > 10);
     for (const auto& [name, quantity] : result.quantities) {
@@ -59,17 +59,17 @@ BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_per_point) {
     }
     BOOST_TEST(result.quantities.at("time_s").values[10] == 0.1);
   }
-  Json json = on_a_circle(testing::manipulator(), 5);
-  const AnalysisResult modes = result_of(json);
+  Json json = manipulator_on_circle(testing::manipulator(), 5);
+  const AnalysisResult modes = analyze_json(json);
   BOOST_TEST(modes.quantities.at("frequency_Hz:1").values.size() == 5);
   BOOST_TEST(modes.quantities.at("frequency_Hz:6").values.size() == 5);
 }
 
 BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
-  Json json = on_a_circle(testing::manipulator(), 100);
+  Json json = manipulator_on_circle(testing::manipulator(), 100);
   json["model"]["trajectory"]["circle"]["step_s"] = 0.0628;
   json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};
-  const AnalysisResult result = result_of(json);
+  const AnalysisResult result = analyze_json(json);
   double upwards = 0, largest = 0;
   for (const char* item : {"A1", "A2", "A3"})
     for (const auto& [error, active] :
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(study_errors_refer_to_the_run_named_in_relative_to) {
     "quantities": {"frequency_Hz": {"index": 0, "relative_to": "first"}}})");
   json["analysis"].erase("statics");
   const auto errors = [&] {
-    return result_of(json).quantities.at("relative_error:frequency_Hz").values;
+    return analyze_json(json).quantities.at("relative_error:frequency_Hz").values;
   };
   BOOST_TEST(errors().front() == 0);
   BOOST_TEST(errors().back() > 0);
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(study_errors_refer_to_the_run_named_in_relative_to) {
 namespace {
 
 /// Returns the cantilever case with the given id and a check against a reference of the catalogue.
-Document against_table_2(const Folder& folder, const char* id) {
+Document cantilever_against_table_2(const Folder& folder, const char* id) {
   Json json = testing::cantilever();
   json["id"] = id;
   json["checks"]["c"] = {
@@ -119,7 +119,7 @@ Document against_table_2(const Folder& folder, const char* id) {
 
 BOOST_AUTO_TEST_CASE(absent_reference_file_next_to_a_case_has_empty_hash) {
   const Folder folder;
-  const Document document = against_table_2(folder, "cantilever");
+  const Document document = cantilever_against_table_2(folder, "cantilever");
   const References references;
   (void)references.get(JsonView(document)["checks"]["c"]["reference"]);
   const auto hashes = references.hashes();
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(absent_reference_file_next_to_a_case_has_empty_hash) {
 
 BOOST_AUTO_TEST_CASE(case_file_references_json_is_not_read_as_references) {
   const Folder folder;
-  const Document document = against_table_2(folder, "references");
+  const Document document = cantilever_against_table_2(folder, "references");
   const References references;
   BOOST_TEST(references.get(JsonView(document)["checks"]["c"]["reference"]).unit == "Hz");
 }
@@ -138,9 +138,9 @@ BOOST_AUTO_TEST_CASE(case_file_references_json_is_not_read_as_references) {
 BOOST_AUTO_TEST_CASE(overflowing_compliance_has_status_not_converged) {
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {0, 1e155};
-  BOOST_TEST(result_of(json).outcome.solved());
+  BOOST_TEST(analyze_json(json).outcome.solved());
   json["model"]["loads"]["tip"]["force_N"] = {0, 1e160};
-  const AnalysisResult result = result_of(json);
+  const AnalysisResult result = analyze_json(json);
   BOOST_TEST((result.outcome.status == Status::not_converged));
   BOOST_TEST(result.outcome.reason == "compliance_J is not a finite number");
   BOOST_TEST(result.quantities.empty());
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(intended_nan_does_not_prevent_the_status_solved) {
 
 BOOST_AUTO_TEST_CASE(computation_beyond_memory_is_refused_with_key_at_fault) {
   const auto refusal = [](const Json& json) {
-    return input_error_message([&] { require_memory(document_of(json), 1e8); });
+    return input_error_message([&] { require_sufficient_memory(document_of(json), 1e8); });
   };
   Json json = testing::cantilever();
   BOOST_TEST(refusal(json) == "");
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(every_catalogue_case_requires_less_than_2_GB) {
 /// Tests the path of equilibria of a shallow arch in each rounding mode. With upward rounding, a
 /// load step once ended on another branch of equilibria with one unstable direction. The program
 /// wrongly reported this step as a change of stability.
-BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
+BOOST_AUTO_TEST_CASE(equilibrium_path_keeps_its_branch_in_any_rounding_mode) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
     set_solver_rounding_mode(mode);

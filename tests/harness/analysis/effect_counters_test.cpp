@@ -16,7 +16,7 @@ namespace {
 
 /// Returns the case reduced to the first point of its path, or to the first two points of a motion.
 /// An effect that is evaluated at any point of the path is also evaluated at these points.
-Document at_one_point(Document document) {
+Document reduce_to_one_point(Document document) {
   const std::string file = document.origin("").file;
   const JsonPointer circle("/model/trajectory/circle");
   if (document.value().contains(circle)) {
@@ -27,7 +27,7 @@ Document at_one_point(Document document) {
   return document;
 }
 
-void check_counters(const Document& document, const References& references) {
+void check_effect_counters(const Document& document, const References& references) {
   const AnalysisResult result = analyze(document, references, {false});
   BOOST_TEST(result.effects.size() == kEffectCount);
   for (const Effect effect : Effects::all().list()) {
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
   for (const Case& given : Catalogue().load()) {
     if (!supports_effects(given.document)) continue;
     for (const std::string& variant : given.variants()) {
-      const Document document = at_one_point(patched(given, variant));
+      const Document document = reduce_to_one_point(patched(given, variant));
       if (!supports_effects(document)) continue;
       // Long motions with all effects active are skipped: they take minutes and have no inactive
       // effect.
@@ -55,9 +55,9 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
       const bool moves = kind == "transient" || kind == "harmonic" || kind == "large-motion";
       if (moves && !document.value().contains("effects")) continue;
       BOOST_TEST_CONTEXT(given.id() << ":" << variant) {
-        check_counters(document, references);
+        check_effect_counters(document, references);
         const EffectScope scope = effect_scope(document, read_case_model(document));
-        check_counters(with_effects(document, scope.required), references);
+        check_effect_counters(apply_effects(document, scope.required), references);
         ++runs;
       }
     }

@@ -32,9 +32,9 @@ double tip(const AnalysisResult& result) {
 
 BOOST_AUTO_TEST_CASE(named_effects_are_the_only_active_ones) {
   Json json = timoshenko_cantilever();
-  const double whole = tip(result_of(json));
+  const double whole = tip(analyze_json(json));
   json["effects"] = {"axial-flexibility"};
-  const AnalysisResult plain = result_of(json);
+  const AnalysisResult plain = analyze_json(json);
   const double bending = 100 * 8 / (3 * 2e11 * 0.05 * 1e-3 / 12);
   BOOST_TEST(tip(plain) == bending, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(tip(plain) < whole);
@@ -47,16 +47,16 @@ BOOST_AUTO_TEST_CASE(geometric_stiffening_by_name_is_second_order_theory) {
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {-1e5, 100};
   json["analysis"]["statics"]["second_order"] = true;
-  const double stated = tip(result_of(json));
+  const double stated = tip(analyze_json(json));
   json["effects"] = {"axial-flexibility", "geometric-stiffening"};
   json["analysis"]["statics"] = Json::object();
-  BOOST_TEST(tip(result_of(json)) == stated);
+  BOOST_TEST(tip(analyze_json(json)) == stated);
 }
 
 BOOST_AUTO_TEST_CASE(selected_effects_have_dimensionless_number_and_reason) {
   Json json = timoshenko_cantilever();
   json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
-  const AnalysisResult slender = result_of(json);
+  const AnalysisResult slender = analyze_json(json);
   // The dimensionless number of shear is E I k^2 / (kappa G A) with the wave number k = pi / L:
   // pi^2 * 2.6 / (5/6 * 12) * (0.1 / 2)^2 = 0.64 %.
   const results::EffectRow& shear = slender.effects.at(static_cast<std::size_t>(Effect::shear));
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(selected_effects_have_dimensionless_number_and_reason) {
   BOOST_TEST(*shear.dimensionless_number == 0.006415, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(contains(shear.why, "changes the results by at most"), shear.why);
   json["effects"]["auto"]["tolerance"] = 0.1;
-  BOOST_TEST(!result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
+  BOOST_TEST(!analyze_json(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
 /// Tests the change of the tip displacement that the effect study reports for a Timoshenko
@@ -234,7 +234,7 @@ BOOST_AUTO_TEST_CASE(nan_in_one_result_is_an_infinite_change) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
   const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};
-  BOOST_TEST(std::isinf(max_change(changes_between(full, other, {.length = 1})).value));
+  BOOST_TEST(std::isinf(max_change(result_changes(full, other, {.length = 1})).value));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

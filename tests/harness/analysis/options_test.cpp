@@ -39,7 +39,7 @@ double number(const Quantities& quantities, const char* name) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
+BOOST_AUTO_TEST_CASE(every_option_combination_is_tried_on_every_variant) {
   const Quantities found =
       tried({{"large-motion",
               {{"vary", {{"mass_damping_per_s", {0, 1, 2}}, {"spectral_radius", {0.5, 1}}}}}}});

@@ -32,7 +32,7 @@ Memory measure_memory(const std::function<Json()>& make) {
     Run run;
     record_result(analyze(document, References(), {true}), run);
     BOOST_REQUIRE(run.is_solved());
-    (void)to_bytes(run);
+    (void)serialize(run);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     return std::to_string(estimated) + " " + std::to_string(used.ru_maxrss);
@@ -42,7 +42,7 @@ Memory measure_memory(const std::function<Json()>& make) {
     std::istringstream(outcome.text) >> memory.estimated >> memory.most;
     memory.most *= 1024;
   };
-  BOOST_REQUIRE(run_in_processes({{work, 300}}, {}, ended) == 0);
+  BOOST_REQUIRE(run_in_worker_processes({{work, 300}}, {}, ended) == 0);
   return memory;
 }
 

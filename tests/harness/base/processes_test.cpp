@@ -33,7 +33,7 @@ std::map<std::size_t, ProcessOutcome> run_all(const std::vector<ProcessTask>& ta
                                               const ProcessOptions& options) {
   std::map<std::size_t, ProcessOutcome> outcomes;
   const int signal =
-      run_in_processes(tasks, options, [&](std::size_t task, const ProcessOutcome& outcome) {
+      run_in_worker_processes(tasks, options, [&](std::size_t task, const ProcessOutcome& outcome) {
         BOOST_TEST(outcomes.emplace(task, outcome).second);
       });
   BOOST_TEST(signal == 0);
@@ -95,11 +95,11 @@ BOOST_AUTO_TEST_CASE(signal_stops_running_and_waiting_tasks) {
   for (const int asked : {SIGINT, SIGTERM}) {
     std::size_t answered = 0;
     const ProcessTask stop{[] { return std::string(); }, 10};
-    const int signal = run_in_processes({{loop, 20}, stop, {loop, 20}, {loop, 20}}, {2, 0},
-                                        [&](std::size_t, const ProcessOutcome&) {
-                                          ++answered;
-                                          std::raise(asked);
-                                        });
+    const int signal = run_in_worker_processes({{loop, 20}, stop, {loop, 20}, {loop, 20}}, {2, 0},
+                                               [&](std::size_t, const ProcessOutcome&) {
+                                                 ++answered;
+                                                 std::raise(asked);
+                                               });
     BOOST_TEST(signal == asked);
     BOOST_TEST(answered == 1);
   }

@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   std::vector<std::size_t> after;  // total number of calls after each repeat
   TimingOptions options;
   options.shortest_s = 0;
-  const auto timings = time_interleaved(works, options, [&] { after.push_back(calls.size()); });
+  const auto timings = measure_interleaved(works, options, [&] { after.push_back(calls.size()); });
   BOOST_TEST_REQUIRE(timings.size() == 3U);
   BOOST_TEST_REQUIRE(after.size() == 7U);
   for (std::size_t r = 1; r < after.size(); ++r) {
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
   options.shortest_s = 1;  // an empty task first reaches the maximum number of runs
-  const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
+  const auto timings = measure_interleaved({[&] { ++calls; }}, options, {});
   BOOST_TEST(timings[0].runs_each == 1000);
   BOOST_TEST(calls == 7 * 1000 + 2);
 }

@@ -265,7 +265,7 @@ BOOST_AUTO_TEST_CASE(user_manipulator_is_run_with_references_in_its_folder) {
   BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
 }
 
-BOOST_AUTO_TEST_CASE(invalid_file_loses_no_results_of_others) {
+BOOST_AUTO_TEST_CASE(invalid_case_file_loses_no_results_of_other_files) {
   const Outcome outcome = run(files(), "run holds.json broken.json --out mixed");
   BOOST_TEST(outcome.status == 2);
   BOOST_TEST(contains(outcome.out, "2 runs, 1 check with 1 number: 1 pass"), outcome.out);
@@ -613,7 +613,7 @@ BOOST_AUTO_TEST_CASE(sweep_of_an_own_case_is_measured_and_written) {
   BOOST_TEST(std::filesystem::exists(folder.path() / "mine/figures/cost-cantilever.csv"));
 }
 
-BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
+BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report_unchanged) {
   const Folder folder;
   (void)folder.write(testing::cantilever());
   BOOST_TEST(run(folder, "report cantilever.json --out out").status == 0);

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(interruption)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(ten_kills_lose_and_duplicate_nothing) {
+BOOST_AUTO_TEST_CASE(ten_killed_calls_lose_and_duplicate_no_result) {
   testing::interrupt_and_resume(10, 1);
 }
 

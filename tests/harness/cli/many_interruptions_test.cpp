@@ -5,7 +5,7 @@
 
 BOOST_AUTO_TEST_SUITE(many_interruptions)
 
-BOOST_AUTO_TEST_CASE(two_hundred_kills_lose_and_duplicate_nothing) {
+BOOST_AUTO_TEST_CASE(two_hundred_kills_lose_and_duplicate_no_result) {
   trammel::testing::interrupt_and_resume(200, 2);
 }
 

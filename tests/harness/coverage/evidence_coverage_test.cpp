@@ -14,8 +14,8 @@ using namespace trammel::testing;
 namespace {
 
 /// Returns the types of evidence for a feature from a case with one check of displacement_y_m:B.
-std::vector<std::string> evidence(const Json& check, const std::string& feature,
-                                  const Json& analysis = {}) {
+std::vector<std::string> evidence_of_check(const Json& check, const std::string& feature,
+                                           const Json& analysis = {}) {
   const Folder folder;
   folder.write_reference("truth", "m", 1, {{"absolute", 0}});
   Json json = testing::cantilever();
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(features_of_a_case_have_the_names_of_the_schema) {
     BOOST_TEST(all.count(feature) == 1, feature);
   Json json = testing::cantilever();
   json["model"]["members"].begin().value()["beam"] = "timoshenko";
-  const CaseFeatures own = features_of(json);
+  const CaseFeatures own = features_of_document(json);
   BOOST_TEST(own.count("beam = timoshenko") == 1);
   BOOST_TEST(own.count("beam = euler-bernoulli") == 0);
   BOOST_TEST(std::includes(all.begin(), all.end(), own.begin(), own.end()));
@@ -56,28 +56,28 @@ BOOST_AUTO_TEST_CASE(features_of_a_case_have_the_names_of_the_schema) {
 BOOST_AUTO_TEST_CASE(check_counts_for_quantity_and_features_of_the_model) {
   for (const char* feature :
        {"model.supports", "statics with model.members", "statics: displacement_y_m:NODE"})
-    BOOST_TEST(evidence(printed_check(), feature) == List{"published"},
+    BOOST_TEST(evidence_of_check(printed_check(), feature) == List{"published"},
                boost::test_tools::per_element());
-  BOOST_TEST(evidence(printed_check(), "statics: displacement_x_m:NODE").empty());
-  BOOST_TEST(evidence(printed_check(), "slider.rail").empty());
+  BOOST_TEST(evidence_of_check(printed_check(), "statics: displacement_x_m:NODE").empty());
+  BOOST_TEST(evidence_of_check(printed_check(), "slider.rail").empty());
 }
 
 BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_not_independent_evidence) {
   const char* feature = "model.supports";
-  BOOST_TEST(evidence({{"quantity", "displacement_y_m:B"},
-                       {"role", "verification"},
-                       {"bound", {{"at_most", 1}, {"why", "w"}}}},
-                      feature) == List{"self-consistency"},
+  BOOST_TEST(evidence_of_check({{"quantity", "displacement_y_m:B"},
+                                {"role", "verification"},
+                                {"bound", {{"at_most", 1}, {"why", "w"}}}},
+                               feature) == List{"self-consistency"},
              boost::test_tools::per_element());
   Json check = printed_check();
   check["negative_control"] = {{"verdict", "fail"}, {"message", "m"}, {"why", "w"}};
-  BOOST_TEST(evidence(check, feature).empty());
+  BOOST_TEST(evidence_of_check(check, feature).empty());
   check = printed_check();
   check.erase("tolerance");
   check["role"] = "validation";
-  BOOST_TEST(evidence(check, feature).empty());
+  BOOST_TEST(evidence_of_check(check, feature).empty());
   check["expect"] = {{"known_discrepancy", "w"}, {"relative_between", {0.1, 0.2}}};
-  BOOST_TEST(evidence(check, feature).empty());
+  BOOST_TEST(evidence_of_check(check, feature).empty());
 }
 
 BOOST_AUTO_TEST_CASE(study_error_is_evidence_of_the_kind_of_its_reference) {
@@ -89,10 +89,10 @@ BOOST_AUTO_TEST_CASE(study_error_is_evidence_of_the_kind_of_its_reference) {
                 {"role", "verification"},
                 {"bound", {{"at_most", 1}, {"why", "w"}}}};
   const char* feature = "model.supports";
-  BOOST_TEST(evidence(check, feature, {{"study", study}}) == List{"published"},
+  BOOST_TEST(evidence_of_check(check, feature, {{"study", study}}) == List{"published"},
              boost::test_tools::per_element());
   check["quantity"] = "relative_error:displacement_x_m:B";
-  BOOST_TEST(evidence(check, feature, {{"study", study}}) == List{"self-consistency"},
+  BOOST_TEST(evidence_of_check(check, feature, {{"study", study}}) == List{"self-consistency"},
              boost::test_tools::per_element());
 }
 

@@ -21,8 +21,8 @@ BOOST_AUTO_TEST_CASE(exported_catalogue_has_the_same_numbers) {
   for (const auto& file : Catalogue().runnable_files()) {
     const Case given = load_case(file);
     for (const std::string& variant : given.variants())
-      for (const ExportChoice& choice : choices_of(given, variant)) {
-        const ExportTwin twin = export_twin(given, choice);
+      for (const ExportChoice& choice : exportable_choices(given, variant)) {
+        const ExportTwin twin = export_and_compute_both(given, choice);
         if (!twin.refused.empty()) {
           ++refused[twin.refused];
           continue;

@@ -25,11 +25,11 @@ namespace {
 
 /// @param limit  largest permitted relative difference between the results of the original case and
 /// of the exported case; 0 requires bit-identical numbers
-void check_twins(const std::vector<std::string>& names, double limit) {
+void check_export_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
     for (const std::string& variant : given.variants()) {
-      const ExportTwin twin = export_twin(given, {variant});
+      const ExportTwin twin = export_and_compute_both(given, {variant});
       if (contains(twin.refused, "eq25")) continue;
       BOOST_TEST(twin.refused.empty(), twin.name << ": " << twin.refused);
       BOOST_TEST(twin.difference <= limit, twin.name << ": " << twin.worst);
@@ -72,8 +72,8 @@ std::string refusal_of(const Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
-  check_twins(
+BOOST_AUTO_TEST_CASE(exported_plain_models_have_bit_identical_results) {
+  check_export_twins(
       {"portal-frame", "manipulator-modes", "ansys-vm21", "buckling-portal", "iftomm-a01-pendulum",
        "nafems-5h", "nafems-5t", "rotating-cantilever-hub-1", "scene-tightened-strip"},
       0);
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
     json["analysis"]["large-motion"]["end_time_s"] = end;
     json["analysis"]["large-motion"].erase("output_step_s");
     const Folder folder;
-    const ExportTwin twin = export_twin(read(folder, json), {});
+    const ExportTwin twin = export_and_compute_both(read(folder, json), {});
     BOOST_TEST(twin.refused == "");
     BOOST_TEST(twin.difference == 0, twin.name << ": " << twin.worst);
   }
@@ -99,9 +99,9 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
 // the last bit. The export also adds the forces on edges to the nodes before the forces on members,
 // which changes round-off.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
-  check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
-               "vpcs-sdll10"},
-              1e-12);
+  check_export_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring",
+                      "tapered-cantilever", "vpcs-sdll10"},
+                     1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(exported_case_has_no_unresolved_keys) {
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(exported_case_has_no_unresolved_keys) {
 
 BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   for (const char* name : {"portal-frame", "manipulator-modes", "buckling-portal"}) {
-    const ExportTwin twin = export_twin(load_named_case(name), {});
+    const ExportTwin twin = export_and_compute_both(load_named_case(name), {});
     BOOST_TEST(!twin.json["export"]["quantities"].empty());
     for (const Json& asked : twin.json["export"]["quantities"]) {
       const auto quantity = asked["name"].get<std::string>();
@@ -185,14 +185,14 @@ BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
 }
 
 BOOST_AUTO_TEST_CASE(grnn_with_given_samples_is_exported_without_a_model) {
-  const ExportTwin twin = export_twin(load_named_case("grnn-example"), {});
+  const ExportTwin twin = export_and_compute_both(load_named_case("grnn-example"), {});
   BOOST_TEST(twin.refused == "");
   BOOST_TEST(twin.difference == 0);
   BOOST_TEST(!twin.json.contains("model"));
 }
 
 BOOST_AUTO_TEST_CASE(manipulator_path_is_exported_as_bodies_joints_and_table) {
-  const ExportTwin twin = export_twin(load_named_case("circle-inverse-dynamics"), {});
+  const ExportTwin twin = export_and_compute_both(load_named_case("circle-inverse-dynamics"), {});
   BOOST_TEST(twin.difference == 0, twin.worst);
   const Json& mechanism = twin.json["export"]["mechanism"];
   const auto at = [&](const char* joint) {
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(manipulator_path_is_exported_as_bodies_joints_and_table) {
                1e-15);
   }
   BOOST_TEST(mechanism["path"]["pose_m_rad"].size() == mechanism["path"]["time_s"].size());
-  const ExportTwin vibrating = export_twin(load_named_case("elastodynamics-order"), {});
+  const ExportTwin vibrating = export_and_compute_both(load_named_case("elastodynamics-order"), {});
   BOOST_TEST(vibrating.difference == 0, vibrating.worst);
   BOOST_TEST(vibrating.json["export"]["mechanism"]["elastic_model"].contains("members"));
 }
@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(exported_matrices_reproduce_the_displacement) {
   const Eigen::VectorXd u = T * K.ldlt().solve(read_matrix(folder.path() / "m/f.mtx"));
   const std::string table = read_text(folder.path() / "m/coordinates.csv");
   const std::size_t line = table.rfind('\n', table.find(",y_m,\"B\"")) + 1;
-  const double tip = only(result_of(cantilever()), "displacement_y_m:B");
+  const double tip = only(analyze_json(cantilever()), "displacement_y_m:B");
   BOOST_TEST(u[std::stol(table.substr(line)) - 1] == tip, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(read_matrix(folder.path() / "m/M.mtx").rows() == K.rows());
   BOOST_TEST(!std::filesystem::exists(folder.path() / "m/C.mtx"));
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(trammel_computes_an_exported_case_as_an_adapter) {
   BOOST_REQUIRE(std::system((program + " solve " + at("c.json") + " " + at("r.json")).c_str()) ==
                 0);
   const Json result = read_json(at("r.json"));
-  const ExportTwin twin = export_twin(load_named_case("portal-frame"), {});
+  const ExportTwin twin = export_and_compute_both(load_named_case("portal-frame"), {});
   BOOST_TEST(result["status"] == "solved");
   BOOST_TEST(result["quantities"].size() == twin.json["export"]["quantities"].size());
   for (const auto& [name, quantity] : result["quantities"].items()) {

@@ -50,7 +50,7 @@ Json judged(const std::string& id) {
   return json;
 }
 
-results::Results results_in(const Folder& folder, const std::string& out) {
+results::Results read_results_in_folder(const Folder& folder, const std::string& out) {
   return results::read_results(folder.path() / out / "results.json");
 }
 
@@ -82,7 +82,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kHostile = {
     {"is-off", {"off", ""}},
     {"well-behaved", {"agrees", ""}}};
 
-bool is_alive(const fs::path& pid_file) {
+bool is_process_alive(const fs::path& pid_file) {
   const int process = std::atoi(read_text(pid_file).c_str());
   BOOST_TEST_REQUIRE(process > 0);
   return kill(process, 0) == 0 || errno != ESRCH;
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(misbehaving_adapter_program_fails_only_its_own_run) {
   const fs::path out = folder.path() / "trammel-grade";
   const auto fault = find_schema_fault(read_json(out / "results.json"), "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
-  const results::Results found = results_in(folder, "trammel-grade");
+  const results::Results found = read_results_in_folder(folder, "trammel-grade");
   BOOST_TEST_REQUIRE(found.runs.size() == kHostile.size());
   for (const results::Run& row : found.runs) {
     const auto& [grade, reason] = kHostile.at(row.case_id);
@@ -116,12 +116,12 @@ BOOST_AUTO_TEST_CASE(misbehaving_adapter_program_fails_only_its_own_run) {
     BOOST_TEST(row.cost.wall_s < 20, row.case_id);
     std::error_code error;
     const fs::path calls = out / "calls" / row.case_id;
-    BOOST_TEST(folder_bytes(calls, std::size_t{1} << 40) < std::size_t{20} << 20, row.case_id);
+    BOOST_TEST(folder_size(calls, std::size_t{1} << 40) < std::size_t{20} << 20, row.case_id);
   }
   BOOST_TEST(found.solver->name == "hostile");
   BOOST_TEST(!found.cases.front().hash.empty());
   for (const char* mode : {"never-returns", "leaves-children"})
-    BOOST_TEST(!is_alive(out / "calls" / mode / "base" / "pid"), mode);
+    BOOST_TEST(!is_process_alive(out / "calls" / mode / "base" / "pid"), mode);
   BOOST_TEST(contains(read_text(out / "junit.xml"), "skipped"));
 }
 
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(grades_not_exported_and_cannot_are_distinct) {
   const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
   BOOST_TEST(
       run(folder, grade_words(adapter, "cannot.json manufactured-timoshenko --variant base")) == 0);
-  const std::vector<results::Run> runs = results_in(folder, "trammel-grade").runs;
+  const std::vector<results::Run> runs = read_results_in_folder(folder, "trammel-grade").runs;
   BOOST_TEST_REQUIRE(runs.size() == 2U);
   BOOST_TEST(to_string(results::grade_of_run(runs[0])) == "cannot");
   BOOST_TEST(to_string(results::grade_of_run(runs[1])) == "not exported");
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(order_check_expects_the_order_declared_by_adapter) {
   const std::string adapter = (kSource / "tests/harness/grade/hostile.py").string();
   const auto verdict = [&](const std::string& orders) {
     const int status = run(folder, grade_words(adapter + orders, "beam-cantilever --variant base"));
-    const results::Results found = results_in(folder, "trammel-grade");
+    const results::Results found = read_results_in_folder(folder, "trammel-grade");
     const results::Check& last = found.runs.at(0).checks.back();
     BOOST_TEST(last.name == "order");
     return std::to_string(status) + " " + to_string(last.verdict);
@@ -205,7 +205,7 @@ BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
   fs::copy_file(adapters / "trammel_adapter.py", folder.path() / "trammel_adapter.py");
   const std::string words = "cantilever-tip-force cantilever-tip-moment portal-frame";
   BOOST_TEST(run(folder, grade_words("handbook.py", words + " --variant base")) == 0);
-  const std::vector<results::Run> runs = results_in(folder, "trammel-grade").runs;
+  const std::vector<results::Run> runs = read_results_in_folder(folder, "trammel-grade").runs;
   BOOST_TEST_REQUIRE(runs.size() == 3U);
   for (const results::Run& row : runs)
     BOOST_TEST(to_string(results::grade_of_run(row)) ==
@@ -232,8 +232,8 @@ std::map<std::string, std::set<std::string>> documented_faults() {
 }
 
 /// Grades the faulty solver on the named cases. @returns the cases with the grade "off"
-std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
-                                const std::set<std::string>& cases, int status) {
+std::set<std::string> cases_graded_off(const Folder& folder, const std::string& fault,
+                                       const std::set<std::string>& cases, int status) {
   std::string names;
   for (const std::string& name : cases) names += " " + name;
   const std::string adapter = (kSource / "harness/adapters/wrong_solver.py").string() +
@@ -241,7 +241,7 @@ std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
   BOOST_TEST(run(folder, grade_words(adapter, names + " --variant base --jobs 2")) == status,
              fault);
   std::set<std::string> off;
-  for (const results::Run& row : results_in(folder, "trammel-grade").runs) {
+  for (const results::Run& row : read_results_in_folder(folder, "trammel-grade").runs) {
     const auto found = results::grade_of_run(row);
     if (found == results::Grade::off) off.insert(row.case_id);
     if (found != results::Grade::off)
@@ -256,9 +256,9 @@ BOOST_AUTO_TEST_CASE(each_documented_solver_fault_fails_the_listed_cases) {
   BOOST_TEST(faults.size() == 10U);
   std::set<std::string> cases;
   for (const auto& [fault, caught] : faults) cases.insert(caught.begin(), caught.end());
-  BOOST_TEST(off_cases(folder, "", cases, 0).empty());
+  BOOST_TEST(cases_graded_off(folder, "", cases, 0).empty());
   for (const auto& [fault, caught] : faults)
-    BOOST_TEST((off_cases(folder, fault, caught, 1) == caught), fault);
+    BOOST_TEST((cases_graded_off(folder, fault, caught, 1) == caught), fault);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

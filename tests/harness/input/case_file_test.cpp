@@ -11,7 +11,7 @@ BOOST_AUTO_TEST_SUITE(case_file)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(variant_is_a_merge_patch) {
+BOOST_AUTO_TEST_CASE(variant_is_applied_as_a_merge_patch) {
   const Folder folder;
   Json json = testing::cantilever();
   json["variants"]["deep"] = {
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(stress_suite_indicator_must_be_a_check_of_the_case) {
   BOOST_TEST(contains(said, "did you mean 'drift'?"));
 }
 
-BOOST_AUTO_TEST_CASE(id_is_the_name_of_the_file_in_the_catalogue_only) {
+BOOST_AUTO_TEST_CASE(case_id_is_the_file_name_in_the_catalogue_only) {
   const Folder folder;
   BOOST_TEST(load_case(folder.write("my beam.json", testing::cantilever().dump())).id() ==
              "cantilever");

@@ -19,7 +19,7 @@ BOOST_AUTO_TEST_CASE(equal_case_names_in_two_folders_are_refused) {
                  first.string() + ")");
 }
 
-BOOST_AUTO_TEST_CASE(case_is_found_in_any_folder) {
+BOOST_AUTO_TEST_CASE(case_is_found_in_any_catalogue_folder) {
   const testing::Folder folder;
   const auto run = folder.write("a/b/runs.json", R"({"extends": "base"})");
   (void)folder.write("c/base.json", R"({"analysis": {}})");

@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-Json expecting(const Json& expect) {
+Json case_expecting(const Json& expect) {
   Json json = testing::cantilever();
   json["variants"]["soft"]["description"] = "Softer.";
   json["variants"]["soft"]["checks"]["c"]["expect"] = Json::object();
@@ -23,28 +23,28 @@ Json expecting(const Json& expect) {
   return json;
 }
 
-Check check_of(const Json& json, const std::string& variant = "base") {
+Check first_check(const Json& json, const std::string& variant = "base") {
   const Folder folder;
   const Case given = testing::read(folder, json);
   return read_checks(patched(given, variant), variant, given.variants()).at(0);
 }
 
 std::string fault(const Json& expect) {
-  return input_error_message([&] { (void)check_of(expecting(expect)); });
+  return input_error_message([&] { (void)first_check(case_expecting(expect)); });
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(expected_values_share_the_half_width_within) {
-  const Check each =
-      check_of(expecting({{"agrees", "r"}, {"relative", {0.038, -0.106}}, {"within", 0.005}}));
+  const Check each = first_check(
+      case_expecting({{"agrees", "r"}, {"relative", {0.038, -0.106}}, {"within", 0.005}}));
   BOOST_TEST((each.measure == Measure::relative));
   BOOST_REQUIRE(each.windows.size() == 2);
   BOOST_TEST(each.windows[0].low == 0.033);
   BOOST_TEST(each.windows[0].high == 0.043);
   BOOST_TEST(each.windows[1].low == -0.111);
   BOOST_TEST(each.windows[1].high == -0.101);
-  const Check one = check_of(expecting({{"agrees", "r"}, {"ratio", 2}, {"within", 0.5}}));
+  const Check one = first_check(case_expecting({{"agrees", "r"}, {"ratio", 2}, {"within", 0.5}}));
   BOOST_TEST((one.measure == Measure::ratio));
   BOOST_REQUIRE(one.windows.size() == 1);
   BOOST_TEST(one.windows[0].low == 1.5);
@@ -52,10 +52,10 @@ BOOST_AUTO_TEST_CASE(expected_values_share_the_half_width_within) {
 }
 
 BOOST_AUTO_TEST_CASE(variant_overrides_expected_value_and_reason) {
-  Json json = expecting({{"known_discrepancy", "Reason."}, {"absolute", 2}, {"within", 0.5}});
+  Json json = case_expecting({{"known_discrepancy", "Reason."}, {"absolute", 2}, {"within", 0.5}});
   json["variants"]["soft"]["checks"]["c"]["expect"]["absolute"] = 1;
-  const Check base = check_of(json);
-  const Check soft = check_of(json, "soft");
+  const Check base = first_check(json);
+  const Check soft = first_check(json, "soft");
   BOOST_TEST(base.why == "Reason.");
   BOOST_TEST(base.windows.at(0).low == 1.5);
   BOOST_TEST(soft.why == "Softer. Reason.");
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(quantity_is_not_judged_against_itself) {
            {"against_quantity", "frequency_Hz"},
            {"role", "verification"},
            {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
-  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)first_check(json); }),
                       "/checks/c/against_quantity: a quantity cannot be compared with itself"));
   check["against_variant"] = "base";
   const Folder folder;
@@ -104,15 +104,15 @@ BOOST_AUTO_TEST_CASE(check_that_cannot_fail_is_refused) {
            {"against_variant", "base"},
            {"role", "verification"},
            {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
-  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)first_check(json); }),
                       "/checks/c/against_variant: the case has no other variant"));
   check = {{"quantity", "frequency_Hz"},
            {"role", "validation"},
            {"expect", {{"agrees", "w"}, {"value_between", {nullptr, nullptr}}}}};
-  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)first_check(json); }),
                       "/checks/c/expect/value_between: expected at least one"));
   check["expect"]["value_between"] = {nullptr, 1};
-  BOOST_TEST(check_of(json).windows.at(0).high == 1);
+  BOOST_TEST(first_check(json).windows.at(0).high == 1);
 }
 
 BOOST_AUTO_TEST_CASE(half_width_requires_stated_values) {

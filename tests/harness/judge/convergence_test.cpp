@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
 }
 
 /// Returns a series of values for h = 1, 1/2, 1/4, ...
-Convergence of_values(const std::vector<double>& values) {
+Convergence make_series(const std::vector<double>& values) {
   Convergence series = power_law(2, 0, 0, values.size());
   series.values = {values.begin(), values.end()};
   return series;
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
   // The values of each series do not converge: they grow like log h or 1/h, or oscillate.
   for (const auto& values : {std::vector<double>{1, 2, 3, 4, 5}, {1, 2, 4, 8, 16}, {1, 2, 0, 4}})
     for (const bool known : {false, true}) {
-      Convergence series = of_values(values);
+      Convergence series = make_series(values);
       if (!known) series.theory_order.reset();
       const Convergence found = analyze_convergence(series);
       BOOST_TEST(!found.richardson.has_value());
@@ -76,18 +76,18 @@ BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
 }
 
 BOOST_AUTO_TEST_CASE(divergence_on_coarse_meshes_is_ignored) {
-  const Convergence found = analyze_convergence(of_values({1, 2, 6, 7, 7.25, 7.3125}));
+  const Convergence found = analyze_convergence(make_series({1, 2, 6, 7, 7.25, 7.3125}));
   BOOST_TEST(std::isnan(*found.gci[2]));
   BOOST_TEST(std::abs(found.richardson.value() - 7.3333333333333333) < 1e-12);
-  const Convergence last = analyze_convergence(of_values({1, 2, 6, 7}));
+  const Convergence last = analyze_convergence(make_series({1, 2, 6, 7}));
   BOOST_TEST(std::abs(last.richardson.value() - 7.3333333333333333) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(slow_convergence_and_round_off_are_no_divergence) {
-  const Convergence slow = analyze_convergence(of_values({4, 3, 2.1, 1.29}));  // slow: order 0.15
+  const Convergence slow = analyze_convergence(make_series({4, 3, 2.1, 1.29}));  // slow: order 0.15
   BOOST_TEST(std::isfinite(*slow.gci[3]));
   BOOST_TEST(slow.richardson.has_value());
-  const Convergence noise = analyze_convergence(of_values({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
+  const Convergence noise = analyze_convergence(make_series({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
   BOOST_TEST(noise.richardson.value() == 3, boost::test_tools::tolerance(1e-13));
   BOOST_TEST(std::isfinite(*noise.gci[3]));
 }
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
   BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
+BOOST_AUTO_TEST_CASE(error_band_contains_the_exact_value_and_is_narrow) {
   for (const double b : {0.5, -0.03, 0.0}) {
     const Convergence series = power_law(4, 0.1, b, 12, 1e-14);
     const Convergence found = analyze_convergence(series);

@@ -71,7 +71,7 @@ Bench validation_bench(const char* kind, const Json& window) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(agreeing_entries_pass_separately) {
+BOOST_AUTO_TEST_CASE(agreeing_entries_of_a_check_pass_separately) {
   Bench bench;
   const auto all = bench.judge_all();
   BOOST_REQUIRE(all.size() == 3);

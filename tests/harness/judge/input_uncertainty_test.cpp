@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 
 /// Returns the outputs 3 d0 - 4 d1 and (1 + d0)^2 of a model. The inputs d0 and d1 deviate from 0
 /// by at most their half widths, 0.1 and 0.2.
-std::optional<Values> linear_and_square(const Values& d) {
+std::optional<Values> linear_and_square_outputs(const Values& d) {
   return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
 }
 
@@ -24,7 +24,7 @@ const Values kHalfWidths = {0.1, 0.2};
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(linear_model_has_exact_input_uncertainties) {
-  const auto u = uncertainty_by_derivatives(linear_and_square, kHalfWidths);
+  const auto u = uncertainty_by_derivatives(linear_and_square_outputs, kHalfWidths);
   BOOST_REQUIRE(u.has_value());
   BOOST_TEST(u->at(0)[0] == 0.3 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
   BOOST_TEST(u->at(1)[0] == -0.8 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(linear_model_has_exact_input_uncertainties) {
 }
 
 BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
-  const auto u = uncertainty_by_sampling(linear_and_square, kHalfWidths, 400, 1);
+  const auto u = uncertainty_by_sampling(linear_and_square_outputs, kHalfWidths, 400, 1);
   BOOST_TEST(u.samples == 400);
   BOOST_TEST(u.failed == 0);
   BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
@@ -73,9 +73,9 @@ BOOST_AUTO_TEST_CASE(deviation_of_samples_is_unbiased) {
 }
 
 BOOST_AUTO_TEST_CASE(samples_depend_on_the_seed) {
-  const auto a = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
-  const auto b = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
-  const auto c = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 4);
+  const auto a = uncertainty_by_sampling(linear_and_square_outputs, kHalfWidths, 40, 3);
+  const auto b = uncertainty_by_sampling(linear_and_square_outputs, kHalfWidths, 40, 3);
+  const auto c = uncertainty_by_sampling(linear_and_square_outputs, kHalfWidths, 40, 4);
   BOOST_TEST(a.standard[0] == b.standard[0]);
   BOOST_TEST(a.standard[0] != c.standard[0]);
 }

@@ -12,8 +12,8 @@ using namespace trammel::harness;
 
 namespace {
 
-Convergence series_of(const std::function<double(double)>& value, std::size_t levels,
-                      double roundoff = 1e-16) {
+Convergence series_of_function(const std::function<double(double)>& value, std::size_t levels,
+                               double roundoff = 1e-16) {
   Convergence series;
   for (std::size_t k = 0; k < levels; ++k) {
     const double h = std::exp2(-static_cast<double>(k));
@@ -27,8 +27,8 @@ Convergence series_of(const std::function<double(double)>& value, std::size_t le
 
 /// Returns the series of values 10 (1 + a h^4 + b h^2) for successively halved h.
 Convergence mixed(double a, double b, std::size_t levels) {
-  Convergence series =
-      series_of([=](double h) { return 10 * (1 + a * std::pow(h, 4) + b * h * h); }, levels);
+  Convergence series = series_of_function(
+      [=](double h) { return 10 * (1 + a * std::pow(h, 4) + b * h * h); }, levels);
   series.exact = 10;
   series.theory_order = 4;
   return series;
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(gci_with_unknown_second_order_has_factor_3) {
 }
 
 BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
-  Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h); }, 7);
+  Convergence series = series_of_function([](double h) { return 10 * (1 + 0.1 * h); }, 7);
   series.exact = 10;
   series.theory_order = 4;
   series.lower_order = 2;
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
 }
 
 BOOST_AUTO_TEST_CASE(gci_of_two_levels_has_theoretical_order_and_factor_3) {
-  Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h * h); }, 2);
+  Convergence series = series_of_function([](double h) { return 10 * (1 + 0.1 * h * h); }, 2);
   series.theory_order = 2;
   const Convergence found = analyze_convergence(series);
   BOOST_TEST(*found.safety_factor[1] == 3);
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(gci_of_two_levels_has_theoretical_order_and_factor_3) {
 BOOST_AUTO_TEST_CASE(nonmonotone_values_converge_on_fine_levels) {
   // h^2 - 1.3 h^3 first falls and then rises, so the values on coarse levels are not monotone.
   Convergence series =
-      series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
+      series_of_function([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
   series.exact = 10;
   series.theory_order = 2;
   const Convergence found = analyze_convergence(series);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(nonmonotone_values_converge_on_fine_levels) {
 }
 
 BOOST_AUTO_TEST_CASE(values_that_are_errors_have_the_exact_value_zero) {
-  Convergence series = series_of([](double h) { return 0.3 * h * h; }, 6);
+  Convergence series = series_of_function([](double h) { return 0.3 * h * h; }, 6);
   series.exact = 0;
   series.is_error = true;
   series.theory_order = 2;

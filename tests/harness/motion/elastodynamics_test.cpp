@@ -40,11 +40,11 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
   // fixed pose.
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
-  const AnalysisResult moving = result_of(json);
+  const AnalysisResult moving = analyze_json(json);
   BOOST_TEST(values(moving, "step_change:P").size() == 6U);
   BOOST_TEST(moving.quantities.count("integration_error:P") == 0U);
   json["model"]["trajectory"] = between("line", 0);
-  const AnalysisResult still = result_of(json);
+  const AnalysisResult still = analyze_json(json);
   BOOST_TEST(values(still, "integration_error:P").size() == 6U);
 }
 
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
   // work as 0 J, so that the reported energy drift contained the actual work.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
-  const AnalysisResult result = result_of(json);
+  const AnalysisResult result = analyze_json(json);
   BOOST_TEST(values(result, "strain_energy_J").size() == 6U);
   for (const char* name : {"load_work_J", "dissipated_energy_J", "energy_drift"})
     BOOST_TEST(result.quantities.count(name) == 0U, name);

@@ -23,7 +23,7 @@ Json hinged_manipulator() {
 }
 
 /// Returns the hinged manipulator with joint angles that follow a trajectory of 0.1 s.
-Json tracking(const char* trajectory) {
+Json tracking_manipulator(const char* trajectory) {
   Json json = hinged_manipulator();
   json["model"]["pose"] = nullptr;
   json["model"]["trajectory"] = Json::parse(trajectory);
@@ -38,10 +38,10 @@ constexpr const char* kStraightSpline = R"({"spline": {"points": 2, "step_s": 0.
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
+BOOST_AUTO_TEST_CASE(time_step_that_does_not_converge_is_reported) {
   Json json = testing::slider_crank();
   json["analysis"]["large-motion"]["steps"] = 3;
-  const AnalysisResult result = result_of(json);
+  const AnalysisResult result = analyze_json(json);
   BOOST_TEST((result.outcome.status == Status::not_converged));
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
 }
@@ -49,9 +49,9 @@ BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
 // Tests joint angles that follow a spline path of the platform. Central differences at the first
 // instant once required a pose before the spline's first knot.
 BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
-  const AnalysisResult spline = result_of(tracking(kStraightSpline));
+  const AnalysisResult spline = analyze_json(tracking_manipulator(kStraightSpline));
   BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
-  const AnalysisResult line = result_of(tracking(R"({"line": {
+  const AnalysisResult line = analyze_json(tracking_manipulator(R"({"line": {
     "from": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
     "to": {"x_m": 0.26, "y_m": 0.154, "phi_rad": 0.02},
     "duration_s": 0.1, "points": 2, "step_s": 0.1}})"));
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
 }
 
 BOOST_AUTO_TEST_CASE(node_where_only_hinges_meet_has_no_rotation) {
-  const AnalysisResult result = result_of(testing::slider_crank());
+  const AnalysisResult result = analyze_json(testing::slider_crank());
   BOOST_TEST(result.quantities.contains("rotation_rad:A"));
   BOOST_TEST(!result.quantities.contains("rotation_rad:S"));
 }
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(prescribed_rotation_releases_the_locked_actuator) {
   const Json law = {{"rest_to_rest", {{"travel", 0.05}, {"duration_s", 0.1}}}};
   json["analysis"]["large-motion"]["drives"] = {
       {"motor", {{"node", "A1"}, {"motion", "rotation"}, {"law", law}}}};
-  const AnalysisResult result = result_of(json);
+  const AnalysisResult result = analyze_json(json);
   BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
   BOOST_TEST(testing::values(result, "rotation_rad:A1").back() == 0.05, tolerance(1e-9));
   BOOST_TEST(testing::values(result, "rotation_rad:B1").back() == 0.05, tolerance(1e-3));
@@ -96,15 +96,15 @@ Json pushed(const Json& times, const Json& factors) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(time_steps_end_only_at_slope_changes_of_the_load) {
+BOOST_AUTO_TEST_CASE(slope_changes_of_the_load_are_ends_of_time_steps) {
   Json times = Json::array(), constant = Json::array(), zigzag = Json::array();
   for (int i = 0; i <= 2000; ++i) {
     times.push_back(i / 2000.0);
     constant.push_back(1);
     zigzag.push_back(i % 2);
   }
-  BOOST_TEST(only(result_of(pushed(times, constant)), "steps") == 10);
-  const AnalysisResult bent = result_of(pushed(times, zigzag));
+  BOOST_TEST(only(analyze_json(pushed(times, constant)), "steps") == 10);
+  const AnalysisResult bent = analyze_json(pushed(times, zigzag));
   BOOST_REQUIRE_MESSAGE(bent.outcome.solved(), bent.outcome.reason);
   BOOST_TEST(only(bent, "steps") == 2000);
   BOOST_TEST(testing::values(bent, "velocity_x_m_per_s:A").back() == 1, tolerance(1e-12));
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(too_long_steps_are_refused_for_any_length) {
     json["model"]["nodes"]["B"] = {-length, 0};
     json["analysis"]["large-motion"]["step_s"] = 0.25 * std::sqrt(length);
     json["analysis"]["large-motion"]["end_time_s"] = 10 * std::sqrt(length);
-    const AnalysisResult result = result_of(json);
+    const AnalysisResult result = analyze_json(json);
     BOOST_TEST((result.outcome.status == Status::not_converged));
     BOOST_TEST(contains(result.outcome.reason, "too long to be extrapolated"),
                result.outcome.reason);
@@ -155,17 +155,17 @@ BOOST_AUTO_TEST_CASE(suggested_initial_velocity_obeys_the_constraints) {
   Json json = crank();
   Json& given = json["analysis"]["large-motion"]["initial_velocities"];
   given["B"] = {{"x_m_per_s", 1}, {"y_m_per_s", 0.9}};
-  const std::string reason = result_of(json).outcome.reason;
+  const std::string reason = analyze_json(json).outcome.reason;
   BOOST_TEST(reason ==
              "the constraints do not let node B start with 1 m/s along x: with the other given "
              "velocities, -1.2 m/s is admissible");
   given["B"]["x_m_per_s"] = -1.2;
-  BOOST_TEST(result_of(json).outcome.solved());
+  BOOST_TEST(analyze_json(json).outcome.solved());
   given["C"]["y_m_per_s"] = 5;
-  BOOST_TEST(contains(result_of(json).outcome.reason,
+  BOOST_TEST(contains(analyze_json(json).outcome.reason,
                       "nor do the constraints admit the other given velocities"));
   given = {{"C", {{"x_m_per_s", 1}}}};
-  BOOST_TEST(contains(result_of(json).outcome.reason, ": 0 m/s is admissible"));
+  BOOST_TEST(contains(analyze_json(json).outcome.reason, ": 0 m/s is admissible"));
 }
 
 BOOST_AUTO_TEST_CASE(contradicting_drives_are_named) {
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(contradicting_drives_are_named) {
     if (kind == std::string("large-motion"))
       options.update({{"end_time_s", 0.1}, {"step_s", 0.01}});
     json["analysis"] = {{kind, options}};
-    return result_of(json).outcome.reason;
+    return analyze_json(json).outcome.reason;
   };
   const std::string both = "do not admit the prescribed motion of a, b";
   BOOST_TEST(contains(reason(drive("O", "rotation", at(1)), drive("C", "y", at(2)), "large-motion"),

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(arc_is_divided_into_equal_chords) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(arc_with_swapped_nodes_is_the_complement) {
+BOOST_AUTO_TEST_CASE(arc_with_swapped_nodes_is_the_complementary_arc) {
   Json json = quarter(6);
   json["model"]["members"]["AB"]["nodes"] = {"B", "A"};
   const Model model = build_model(read_case_model(document_of(json)), 0);
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(arc_with_swapped_nodes_is_the_complement) {
 }
 
 BOOST_AUTO_TEST_CASE(intermediate_nodes_have_no_quantities) {
-  const AnalysisResult result = result_of(quarter(4));
+  const AnalysisResult result = analyze_json(quarter(4));
   for (const auto& [name, quantity] : result.quantities) {
     BOOST_TEST(name.back() != ':', name);
     BOOST_TEST(quantity.values.size() == 1, name);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(intermediate_nodes_have_no_quantities) {
 // Tests the section of a tapered member halfway between two rectangular sections. Area and second
 // moment of area were once interpolated linearly. Frequencies of a strip tapered 5 : 1 were wrong
 // by up to 178 %.
-BOOST_AUTO_TEST_CASE(between_rectangles_depth_and_width_are_linear) {
+BOOST_AUTO_TEST_CASE(rectangular_tapers_have_linear_depth_and_width) {
   Json json = testing::cantilever();
   json["model"]["sections"]["thin"] = {{"material", "steel"},
                                        {"rectangle", {{"thickness_m", 0.02}, {"width_m", 0.03}}}};

@@ -42,7 +42,7 @@ struct FieldList {
 
 /// @param read_alone  keys that are read but never written, and thus are missing in the field list
 template <class T>
-void check_fields(const std::string& definition, const Names& read_alone = {}) {
+void check_field_keys(const std::string& definition, const Names& read_alone = {}) {
   const Json& rule = schema()["definitions"][definition];
   FieldList list;
   T part{};
@@ -65,17 +65,17 @@ void check_words(const std::string& pointer) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(fields_read_from_json_equal_the_schema_keys) {
-  check_fields<solver::Material>("material");
-  check_fields<solver::Member>("member",
-                               {"end_section", "taper", "arc_center_m", "restrained_motions"});
-  check_fields<solver::Plate>("plate", {"triangles", "blocks", "element", "divisions"});
-  check_fields<solver::RigidBody>("rigid_body");
-  check_fields<solver::PointMass>("point_mass");
-  check_fields<solver::Spring>("spring");
-  check_fields<Pin>("pin");
-  check_fields<solver::large_motion::Slider>("slider");
-  check_fields<solver::large_motion::LineSpring>("axial_spring");
-  check_fields<solver::NodalLoad>("load", {"edge", "traction_Pa", "normal_Pa"});
+  check_field_keys<solver::Material>("material");
+  check_field_keys<solver::Member>("member",
+                                   {"end_section", "taper", "arc_center_m", "restrained_motions"});
+  check_field_keys<solver::Plate>("plate", {"triangles", "blocks", "element", "divisions"});
+  check_field_keys<solver::RigidBody>("rigid_body");
+  check_field_keys<solver::PointMass>("point_mass");
+  check_field_keys<solver::Spring>("spring");
+  check_field_keys<Pin>("pin");
+  check_field_keys<solver::large_motion::Slider>("slider");
+  check_field_keys<solver::large_motion::LineSpring>("axial_spring");
+  check_field_keys<solver::NodalLoad>("load", {"edge", "traction_Pa", "normal_Pa"});
 }
 
 BOOST_AUTO_TEST_CASE(enumerator_names_equal_the_schema_words) {

@@ -19,7 +19,7 @@ namespace {
 using Recorded = std::map<std::string, std::set<std::string>>;
 
 /// Returns the heads of the names of quantities, except for quantities that a study defines.
-std::set<std::string> heads_of(const Document& document, const Quantities& quantities) {
+std::set<std::string> quantity_heads(const Document& document, const Quantities& quantities) {
   const Json& analysis = document.value().at("analysis");
   std::set<std::string> studied, heads;
   if (analysis.contains("study")) {
@@ -38,7 +38,7 @@ void record(const Document& document, Recorded& recorded) {
   const References references;
   const AnalysisResult result = analyze(document, references, {false});
   BOOST_REQUIRE_MESSAGE(result.outcome.solved(), document.value().at("id"));
-  recorded[analysis_kind(document)].merge(heads_of(document, result.quantities));
+  recorded[analysis_kind(document)].merge(quantity_heads(document, result.quantities));
 }
 
 /// Cases of the catalogue that together contain nearly all quantities.

@@ -33,7 +33,7 @@ Configuration configuration(const std::string& name, double first, double second
   return made;
 }
 
-std::string flips_of(const Certification& certificate) {
+std::string changed_verdicts(const Certification& certificate) {
   std::string text;
   for (const VerdictFlip& flip : certificate.flips)
     text += flip.configuration + " " + flip.check + " " + flip.from + " " + flip.to + "; ";
@@ -69,10 +69,10 @@ BOOST_AUTO_TEST_CASE(different_verdict_and_missing_check_are_reported) {
   short_one.results.runs[0].checks.pop_back();
   const Certification found = certify({configuration("here", 2, 2), short_one});
   BOOST_TEST(found.rows[0].missing == 1U);
-  BOOST_TEST(flips_of(found) ==
+  BOOST_TEST(changed_verdicts(found) ==
              "short beam:base tip[0] pass fail; short beam:base tip[1] pass missing; ");
   const Certification more = certify({short_one, configuration("whole", 2, 2)});
-  BOOST_TEST(flips_of(more) ==
+  BOOST_TEST(changed_verdicts(more) ==
              "whole beam:base tip[0] fail pass; whole beam:base tip[1] missing pass; ");
 }
 
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(worst_entry_of_a_bound_may_differ) {
     const Certification found = certify({here, there});
     BOOST_TEST(found.rows[0].checks == 1U);
     BOOST_TEST(found.rows[0].fewest_digits == 16);
-    BOOST_TEST(flips_of(found).empty());
+    BOOST_TEST(changed_verdicts(found).empty());
   }
 }
 
@@ -99,25 +99,25 @@ BOOST_AUTO_TEST_CASE(different_status_and_missing_run_are_reported) {
     other.results.runs[0].checks.clear();
     const Certification found = certify({configuration("here", 2, 2), other});
     BOOST_TEST(found.rows[0].missing == 2U);
-    BOOST_TEST(flips_of(found) == "other beam:base solved " + to_string(status) + "; ");
+    BOOST_TEST(changed_verdicts(found) == "other beam:base solved " + to_string(status) + "; ");
   }
   Configuration late = configuration("late", 2, 2);
   late.results.runs[0].status = results::Status::error;
   late.results.runs[0].reason = "took more than 5 s";
-  BOOST_TEST(flips_of(certify({configuration("here", 2, 2), late})) ==
+  BOOST_TEST(changed_verdicts(certify({configuration("here", 2, 2), late})) ==
              "late beam:base solved error: took more than 5 s; ");
   const Certification none = certify({configuration("here", 2, 2), {"none", {}}});
-  BOOST_TEST(flips_of(none) == "none beam:base solved missing; ");
+  BOOST_TEST(changed_verdicts(none) == "none beam:base solved missing; ");
 }
 
 BOOST_AUTO_TEST_CASE(run_failing_in_each_configuration_is_reported_for_each) {
   Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
   for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
-  BOOST_TEST(flips_of(certify({here, there})) ==
+  BOOST_TEST(changed_verdicts(certify({here, there})) ==
              "here beam:base error error; there beam:base error error; ");
   for (Configuration* one : {&here, &there})
     one->results.runs[0].status = results::Status::singular;
-  BOOST_TEST(flips_of(certify({here, there})).empty());
+  BOOST_TEST(changed_verdicts(certify({here, there})).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

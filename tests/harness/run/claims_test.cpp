@@ -15,7 +15,7 @@ using namespace trammel::testing;
 
 namespace {
 
-Document claims_of(const Json& readings, const std::string& expected,
+Document claim_set(const Json& readings, const std::string& expected,
                    const std::string& together = "parts") {
   Json json = Json::parse(R"({"title": "A paper", "source": "someone-2020", "claims": {"1": {
     "title": "It holds", "claim": "It holds.", "place": "Page 1", "conclusion": "So it is."}}})");
@@ -69,7 +69,7 @@ std::string verdict(const Document& document, const std::vector<Run>& runs) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
-  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  const Document document = claim_set({{"r", ratio}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1, 1.05)}) == "confirmed"));
   BOOST_TEST((verdict(document, {bend(2, 3)}) == "contradicted"));
   BOOST_TEST((verdict(document, {bend(1, 3)}) == "confirmed in part"));
@@ -78,14 +78,14 @@ BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
 }
 
 BOOST_AUTO_TEST_CASE(changed_verdict_of_a_claim_is_detected) {
-  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  const Document document = claim_set({{"r", ratio}}, "confirmed");
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 1)})) == 0);
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 2)})) == 1);
   BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
 }
 
 BOOST_AUTO_TEST_CASE(claim_set_with_a_changed_verdict_is_not_as_recorded) {
-  Json json = claims_of({{"r", ratio}}, "confirmed").value();
+  Json json = claim_set({{"r", ratio}}, "confirmed").value();
   json["claims"]["2"] = json["claims"]["1"];
   json["claims"]["2"]["expected"] = "contradicted";
   const Document document = Document::from_json("claims.json", json);
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(claim_set_with_a_changed_verdict_is_not_as_recorded) {
 }
 
 BOOST_AUTO_TEST_CASE(claim_with_a_missing_number_is_not_measured) {
-  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  const Document document = claim_set({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
   broken.status = results::Status::error;
   BOOST_TEST((verdict(document, {broken}) == "not measured"));
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(missing_interpretation_leaves_a_claim_unmeasured) {
   Run half = bend(1, 1);
   half.checks[1].computed.reset();
   BOOST_TEST(
-      (verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
+      (verdict(claim_set({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(relative_metric_refers_to_the_expected_value) {
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(relative_metric_refers_to_the_expected_value) {
   relative["metric"] = "relative";
   relative["confirms"] = {0.45, 0.55};
   relative["contradicts"] = {0.6, nullptr};
-  const Document document = claims_of({{"r", relative}}, "confirmed");
+  const Document document = claim_set({{"r", relative}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1.5, 1.5)}) == "confirmed"));
   BOOST_TEST((verdict(document, {bend(3, 3)}) == "contradicted"));
 }
@@ -133,10 +133,10 @@ BOOST_AUTO_TEST_CASE(claim_with_contradictory_alternatives_is_undecided) {
   second["check"] = "tip-y";
   const Json both = {{"x", ratio}, {"y", second}};
   const std::vector<Run> runs = {bend(1, 1)};
-  BOOST_TEST((verdict(claims_of(both, "confirmed"), runs) == "confirmed in part"));
-  BOOST_TEST((verdict(claims_of(both, "confirmed", "alternatives"), runs) == "cannot be decided"));
+  BOOST_TEST((verdict(claim_set(both, "confirmed"), runs) == "confirmed in part"));
+  BOOST_TEST((verdict(claim_set(both, "confirmed", "alternatives"), runs) == "cannot be decided"));
   second["check"] = "tip*";
-  BOOST_TEST(evaluate_claims(claims_of({{"all", second}}, "confirmed"), runs)
+  BOOST_TEST(evaluate_claims(claim_set({{"all", second}}, "confirmed"), runs)
                  .claims[0]
                  .interpretations[0]
                  .entries.size() == 3U);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(claim_requiring_all_entries_fails_if_one_entry_fails) {
   Json jointly = ratio;
   jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
-  const Document document = claims_of({{"r", jointly}}, "confirmed");
+  const Document document = claim_set({{"r", jointly}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1, 1)}) == "confirmed"));
   BOOST_TEST((verdict(document, {bend(1, 3)}) == "contradicted"));
   BOOST_TEST((verdict(document, {bend(3, 1)}) == "contradicted"));
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(confirms_otherwise_accepts_all_not_contradicting) {
   Json away = ratio;
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
-  const Document document = claims_of({{"r", away}}, "confirmed");
+  const Document document = claim_set({{"r", away}}, "confirmed");
   BOOST_TEST(evaluate_claims(document, {bend(-3, 2)}).as_recorded);
   BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
   BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_recorded);
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(confirms_otherwise_accepts_all_not_contradicting) {
 
 BOOST_AUTO_TEST_CASE(growth_of_a_quantity_is_measured_between_entries) {
   const results::Claims found =
-      evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
+      evaluate_claims(claim_set({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
   BOOST_REQUIRE(reading.entries.size() == 2U);
   BOOST_TEST(reading.entries[0].value == 2);
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(claim_on_a_nan_quantity_is_not_measured) {
   value["metric"] = "value";
   Run run = bend(1, 1);
   run.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
-  const results::Claims found = evaluate_claims(claims_of({{"g", value}}, "confirmed"), {run});
+  const results::Claims found = evaluate_claims(claim_set({{"g", value}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
   for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries)
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(contradictory_claim_rule_is_refused) {
     reading[key] = value;
     if (value.is_null()) reading.erase(key);
     return input_error_message([&] {
-      (void)evaluate_claims(claims_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
+      (void)evaluate_claims(claim_set({{"r", reading}}, "confirmed"), {bend(1, 1)});
     });
   };
   BOOST_TEST(contains(refusal("contradicts", {1, 2}), "/claims/1/interpretations/r: the ranges"));

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(round_off_and_reverted_values_are_no_change) {
   BOOST_TEST(back.changes.empty());
 }
 
-BOOST_AUTO_TEST_CASE(millionth_of_the_tolerance_is_round_off) {
+BOOST_AUTO_TEST_CASE(change_by_a_millionth_of_tolerance_is_round_off) {
   const auto tolerated = [](const std::string& commit, double value) {
     results::Results made = call(commit, value);
     made.runs[0].checks[0].tolerance = results::Tolerance{-1.0, 1.0, true};
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(millionth_of_the_tolerance_is_round_off) {
   BOOST_TEST(kept(other, {tolerated("one", 10), tolerated("two", 10.001)}).changes.size() == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(small_steps_in_one_direction_are_a_drift) {
+BOOST_AUTO_TEST_CASE(small_changes_in_one_direction_are_a_drift) {
   const Folder folder, other;
   const History found =
       kept(folder, {call("1", 10), call("2", 10.01), call("3", 10.02), call("4", 10.03)});

@@ -12,16 +12,16 @@ using results::PaperItem;
 
 namespace {
 
-std::vector<PaperItem> items_of(const Json& item) {
+std::vector<PaperItem> load_paper_item(const Json& item) {
   const Document document = Document::from_json(
       "claims.json", {{"claims", {{"1", Json::object()}}}, {"items", {{"equation-1", item}}}});
   return load_paper_items(document, Catalogue());
 }
 
-std::string fault_of(Json item) {
+std::string item_error(Json item) {
   item["section"] = "1";
   item["what"] = "w";
-  return input_error_message([&] { (void)items_of(item); });
+  return input_error_message([&] { (void)load_paper_item(item); });
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(every_item_and_claim_of_the_paper_has_a_row) {
 
 BOOST_AUTO_TEST_CASE(paper_item_must_name_existing_counterparts) {
   const auto shown = [](const Json& counterpart) {
-    return fault_of({{"shown_by", {counterpart}}});
+    return item_error({{"shown_by", {counterpart}}});
   };
   BOOST_TEST(shown({{"case", "circle-load"}, {"quantity", "reaction_x_N:A1"}}) == "");
   BOOST_TEST(contains(shown({{"case", "circle-lode"}}), "circle-load"));
@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(paper_item_must_name_existing_counterparts) {
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"figure", "x"}}), "figure of the case"));
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"quantity", "frequency_Hz"}}),
                       "/items/equation-1/shown_by/0/quantity: the analysis of"));
-  BOOST_TEST(contains(fault_of({{"claims", {"2"}}}), "expected a claim (got '2')"));
-  BOOST_TEST(contains(fault_of(Json::object()), "requires 'shown_by', 'claims' or 'reason'"));
+  BOOST_TEST(contains(item_error({{"claims", {"2"}}}), "expected a claim (got '2')"));
+  BOOST_TEST(contains(item_error(Json::object()), "requires 'shown_by', 'claims' or 'reason'"));
 }
 
 BOOST_AUTO_TEST_CASE(verdicts_are_counted_by_quantity_and_variant) {

@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE(stored_computation_is_bit_identical) {
   computation.drawing->members = {{0, 0}};
   computation.effects = {{"shear", "", "why", true, false, 0, {}, 1.0 / 3, {}}};
   computation.sweeps = {{"s", {{2, computation.quantities}}}};
-  const std::string bytes = to_bytes(computation);
+  const std::string bytes = serialize(computation);
   const Run again = parse_run(bytes);
-  BOOST_TEST(to_bytes(again) == bytes);
+  BOOST_TEST(serialize(again) == bytes);
   const auto& values = again.quantities.at("q").values;
   BOOST_TEST((values[0] == 0.1 && std::signbit(values[1]) && values[2] == 5e-324 &&
               std::isnan(values[3]) && std::isinf(values[4])));
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(resumed_run_returns_identical_results) {
   BOOST_TEST(run_all(folder, json, true).results == first);
 }
 
-BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
+BOOST_AUTO_TEST_CASE(corrupted_stored_run_is_computed_again) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Resumed first = run_all(folder, json, false);
@@ -129,17 +129,17 @@ BOOST_AUTO_TEST_CASE(changed_case_renames_stored_run_of_its_options) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(changed_or_added_reference_invalidates_an_entry) {
+BOOST_AUTO_TEST_CASE(changed_or_added_reference_invalidates_stored_run) {
   const Folder folder;
   const std::string place = (folder.path() / "references.json").string() + "#/";
   folder.write_reference({{"id", "r"}, {"values", {1}}});
   Run computation;
   computation.references[place + "r"] = "0";
   const auto entry = folder.path() / "entry";
-  write_file(entry, to_bytes(computation));
+  write_file(entry, serialize(computation));
   BOOST_TEST(!load_stored_run(entry, computation));
   computation.references = {{place + "r", References().hash(place + "r")}, {place + "absent", ""}};
-  write_file(entry, to_bytes(computation));
+  write_file(entry, serialize(computation));
   BOOST_TEST(load_stored_run(entry, computation));
   folder.write_reference({{"id", "other"}, {"values", {1}}});
   BOOST_TEST(load_stored_run(entry, computation));
@@ -152,13 +152,13 @@ BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_reused) {
   Run computation;
   computation.machine = "another";
   const auto entry = folder.path() / "entry";
-  write_file(entry, to_bytes(computation));
+  write_file(entry, serialize(computation));
   BOOST_TEST(load_stored_run(entry, computation));
   computation.cost.timings = {{"t", 1, 1}};
-  write_file(entry, to_bytes(computation));
+  write_file(entry, serialize(computation));
   BOOST_TEST(!load_stored_run(entry, computation));
   computation.machine = machine_name();
-  write_file(entry, to_bytes(computation));
+  write_file(entry, serialize(computation));
   BOOST_TEST(load_stored_run(entry, computation));
 }
 
@@ -186,13 +186,13 @@ BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   BOOST_TEST(measured == 3);
 }
 
-BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
+BOOST_AUTO_TEST_CASE(stored_runs_unused_for_a_month_are_removed) {
   const Folder folder;
   const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
   const auto other = folder.write("old.json", "1");
   Run computation;
   for (const auto& file : {old, used, other}) {
-    if (file != other) write_file(file, to_bytes(computation));
+    if (file != other) write_file(file, serialize(computation));
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() - std::chrono::days(31));
   }

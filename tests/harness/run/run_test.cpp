@@ -55,7 +55,7 @@ const CheckResult& find(const Run& run, const std::string& name) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
+BOOST_AUTO_TEST_CASE(observed_order_leading_term_and_limit_are_judged) {
   const Folder folder;
   Json json = beam(folder);
   std::vector<Run> runs = run_all({testing::read(folder, json)});
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
   BOOST_TEST(exit_status(runs) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(uncomputed_checks_and_missing_bands_fail) {
+BOOST_AUTO_TEST_CASE(uncomputed_checks_and_missing_error_bands_fail) {
   const Folder folder;
   Json json = beam(folder);
   json["variants"]["no-length"]["model"]["nodes"]["B"] = {0, 0};

@@ -64,14 +64,14 @@ void change(const fs::path& folder, const char* key, const Json& value) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(shard_is_read_from_k_of_n) {
+BOOST_AUTO_TEST_CASE(shard_option_is_read_from_k_of_n) {
   BOOST_TEST(parse_shard("2/8").number == 2U);
   BOOST_TEST(parse_shard("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
     BOOST_TEST(contains(input_error_message([&] { (void)parse_shard(bad); }), "expected K/N"), bad);
 }
 
-BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
+BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_without_shards) {
   const Folder folder;
   const std::vector<Case> all = cases(folder);
   const std::string whole = results_text(run_cases(all, References(), {}), all);

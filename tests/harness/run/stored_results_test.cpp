@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns stored results of a cantilever with two meshes, a sweep and a drawing.
-results::Results computed(const Folder& folder) {
+results::Results cantilever_results(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["two"]["model"]["elements"] = 2;
   json["sweeps"] = {{"mesh", {{"pointers", {"/model/elements"}}, {"values", {1, 2, 4, 8}}}}};
@@ -35,7 +35,7 @@ results::Results computed(const Folder& folder) {
 
 BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   const Folder folder;
-  results::Results before = computed(folder);
+  results::Results before = cantilever_results(folder);
   const fs::path file = write_results(before, folder.path() / "out");
   const results::Results after = load_results(file);
   BOOST_TEST(after.missing == "");
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(inherited_inputs_name_the_case_file_that_sets_them) {
 
 BOOST_AUTO_TEST_CASE(results_file_has_scalars_and_each_reason_once) {
   const Folder folder;
-  const Json json = read_json(write_results(computed(folder), folder.path() / "out"));
+  const Json json = read_json(write_results(cantilever_results(folder), folder.path() / "out"));
   BOOST_TEST(json["store"] == "store");
   for (const Json& run : json["runs"]) {
     for (const Json& values : run["quantities"]) BOOST_TEST(values.size() == 1U);
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(shared_citation_is_stored_once) {
 
 BOOST_AUTO_TEST_CASE(copy_without_its_store_reports_what_is_missing) {
   const Folder folder;
-  const fs::path file = write_results(computed(folder), folder.path() / "out");
+  const fs::path file = write_results(cantilever_results(folder), folder.path() / "out");
   fs::create_directories(folder.path() / "copy");
   fs::copy(file, folder.path() / "copy");
   const results::Results copy = load_results(folder.path() / "copy/results.json");
@@ -107,9 +107,9 @@ BOOST_AUTO_TEST_CASE(copy_without_its_store_reports_what_is_missing) {
   BOOST_TEST(copy.runs[0].quantity("displacement_y_m:B") != nullptr);
 }
 
-BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
+BOOST_AUTO_TEST_CASE(broken_and_foreign_store_files_count_as_missing) {
   const Folder folder;
-  const results::Results results = computed(folder);
+  const results::Results results = cantilever_results(folder);
   const fs::path file = write_results(results, folder.path() / "out");
   const fs::path first = folder.path() / "out/store" / results.runs[0].stored,
                  second = folder.path() / "out/store" / results.runs[1].stored;
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
 
 BOOST_AUTO_TEST_CASE(reason_index_beyond_the_list_is_refused) {
   const Folder folder;
-  const fs::path file = write_results(computed(folder), folder.path() / "out");
+  const fs::path file = write_results(cantilever_results(folder), folder.path() / "out");
   Json json = read_json(file);
   json["runs"][0]["checks"][0]["why"] = 1;
   write_file(file, json.dump());

@@ -22,7 +22,7 @@ std::vector<Eigen::VectorXd> wave(double periods) {
 }
 
 /// Returns a manipulator that moves along a line of 10 mm in 0.1 s, with a force at P.
-Json on_a_line(const Json& analysis) {
+Json manipulator_on_line(const Json& analysis) {
   Json json = testing::manipulator();
   json["model"].erase("pose");
   json["model"]["trajectory"]["line"] =
@@ -53,16 +53,16 @@ constexpr std::size_t kP = 9;  ///< index of the platform's center among the nod
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(drawn_instants_resolve_fast_motions) {
-  const std::vector<std::size_t> slow = drawn_samples(wave(1), 20);
+  const std::vector<std::size_t> slow = samples_to_draw(wave(1), 20);
   BOOST_TEST(slow.size() == 48);
   BOOST_TEST(slow.front() == 0);
   BOOST_TEST(slow.back() == 960);
-  const std::vector<std::size_t> fast = drawn_samples(wave(48), 20);
+  const std::vector<std::size_t> fast = samples_to_draw(wave(48), 20);
   BOOST_TEST(fast.size() == 48);
   BOOST_TEST(fast.back() > 60);  // the drawn time span is at least three periods
   BOOST_TEST(fast.back() < 250);
-  BOOST_TEST(drawn_samples(wave(1), 1000).size() == 6);
-  BOOST_TEST(drawn_samples({Eigen::VectorXd::Zero(1)}, 20).empty());
+  BOOST_TEST(samples_to_draw(wave(1), 1000).size() == 6);
+  BOOST_TEST(samples_to_draw({Eigen::VectorXd::Zero(1)}, 20).empty());
   for (std::size_t k = 1; k < slow.size(); ++k) BOOST_TEST((slow[k] - slow[k - 1]) / 2 == 10U);
 }
 
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
   for (const Json& analysis :
        {Json{{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}},
         Json{{"statics", Json::object()}}, Json{{"kinematics", Json::object()}}}) {
-    const AnalysisResult result = result_of(on_a_line(analysis));
+    const AnalysisResult result = analyze_json(manipulator_on_line(analysis));
     const std::string deflection =
         analysis.contains("statics") ? "displacement_x_m:P" : "deflection_m:P";
     for (const results::Pose& instant : drawn_instants(result, 6)) {
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
 }
 
 BOOST_AUTO_TEST_CASE(poses_of_a_large_motion_are_drawn_at_their_positions) {
-  const AnalysisResult result = result_of(Json::parse(R"({
+  const AnalysisResult result = analyze_json(Json::parse(R"({
     "id": "pendulum", "title": "A pendulum that is turned",
     "model": {
       "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},

@@ -24,7 +24,7 @@ AnalysisResult analyze_cantilever(double force_x, double force_y, const char* an
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {force_x, force_y};
   json["analysis"] = {{analysis, Json::object()}};
-  AnalysisResult result = result_of(json);
+  AnalysisResult result = analyze_json(json);
   BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
   return result;
 }
@@ -61,14 +61,14 @@ BOOST_AUTO_TEST_CASE(large_extension_of_a_member_has_a_warning) {
 // Tests the warning about second-order statics near buckling. The Euler load of the cantilever is
 // pi^2 E I / (4 L^2). At 0.95 of this load, the displacements are about 20 times those of linear
 // theory.
-BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
+BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_causes_a_warning) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
   for (const auto& [share, across, warned] :
        {std::tuple(0.8, 1e3, false), std::tuple(0.95, 1e3, true), std::tuple(0.99, 1e-4, true)}) {
     Json json = testing::cantilever();
     json["model"]["loads"]["tip"]["force_N"] = {-share * critical, across};
     json["analysis"] = {{"statics", {{"second_order", true}}}};
-    const AnalysisResult result = result_of(json);
+    const AnalysisResult result = analyze_json(json);
     BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
     BOOST_TEST(warns(result, "the amplification by second-order theory is ") == warned);
   }
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(model_that_cannot_vibrate_or_buckle_is_singular) {
     json["model"]["supports"] = supports;
     json["model"]["materials"]["steel"]["rho_kg_m3"] = density;
     json["analysis"] = {{analysis, {{"count", 1}}}};
-    const AnalysisResult result = result_of(json);
+    const AnalysisResult result = analyze_json(json);
     BOOST_TEST((result.outcome.status == solver::Status::singular));
     return result.outcome.reason;
   };
@@ -104,9 +104,9 @@ BOOST_AUTO_TEST_CASE(model_that_cannot_vibrate_or_buckle_is_singular) {
 
 // Tests the warning about reactions that equilibrium does not determine. A rigid beam on three
 // supports is statically indeterminate.
-BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
+BOOST_AUTO_TEST_CASE(indeterminate_reactions_cause_a_warning) {
   Json json = testing::cantilever();
-  BOOST_TEST(result_of(json).warnings.empty());
+  BOOST_TEST(analyze_json(json).warnings.empty());
   json["model"]["members"] = Json::object();
   json["model"]["nodes"] = {{"A", {0, 0}}, {"B", {1, 0}}, {"C", {2, 0}}};
   json["model"]["rigid_bodies"] = {{"beam", {{"reference", "A"}, {"nodes", {"B", "C"}}}}};
@@ -119,9 +119,9 @@ BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
         Json{{"large-motion", {{"end_time_s", 0.1}, {"step_s", 0.1}}}}}) {
     json["analysis"] = analysis;
     json["model"]["supports"]["C"] = {"y"};
-    BOOST_TEST(warns(result_of(json), "redundant constraints is 1: "), analysis.dump());
+    BOOST_TEST(warns(analyze_json(json), "redundant constraints is 1: "), analysis.dump());
     json["model"]["supports"].erase("C");
-    BOOST_TEST(!warns(result_of(json), "redundant constraints"), analysis.dump());
+    BOOST_TEST(!warns(analyze_json(json), "redundant constraints"), analysis.dump());
   }
 }
 
@@ -133,11 +133,11 @@ BOOST_AUTO_TEST_CASE(frequencies_of_coarse_meshes_have_a_warning) {
   json["checks"] = Json::object();
   for (const auto& [elements, warned] : {std::pair(4, true), std::pair(16, false)}) {
     json["model"]["elements"] = elements;
-    BOOST_TEST(warns(result_of(json), "the largest dimensionless wave number") == warned, elements);
+    BOOST_TEST(warns(analyze_json(json), "largest dimensionless wave number") == warned, elements);
   }
 }
 
-BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
+BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_cause_a_warning) {
   Json json = testing::cantilever();
   json["model"]["sections"] = {
       {"s", {{"material", "steel"}, {"rectangle", {{"thickness_m", 0.1}, {"width_m", 0.05}}}}},
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
   json["checks"] = Json::object();
   for (const auto& [elements, warned] : {std::pair(1, true), std::pair(64, false)}) {
     json["model"]["elements"] = elements;
-    BOOST_TEST(warns(result_of(json), "ratio of stiffness at the ends of an element") == warned,
+    BOOST_TEST(warns(analyze_json(json), "ratio of stiffness at the ends of an element") == warned,
                elements);
   }
 }
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
 // Tests the warning that reduced modes do not represent the initial velocity of a cantilever, a
 // uniform translation. The first mode has 61.3 % of the kinetic energy. The remaining velocity has
 // the relative norm sqrt(0.387) = 0.622 on a fine mesh.
-BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
+BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_causes_a_warning) {
   Json json = testing::cantilever();
   json["model"]["loads"] = Json::object();
   json["model"]["elements"] = 64;
@@ -166,9 +166,9 @@ BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
     "duration_s": 0.01, "step_s": 0.001, "method": "modal-superposition",
     "initial_state": {"velocity_m_per_s": [0, -1]}, "reduction": {"modes": 1},
     "outputs": ["velocity_y_m_per_s:B"]}})");
-  BOOST_TEST(warns(result_of(json), "the reduced basis cannot represent is 0.61"));
+  BOOST_TEST(warns(analyze_json(json), "the reduced basis cannot represent is 0.61"));
   json["analysis"]["transient"].erase("reduction");
-  BOOST_TEST(!warns(result_of(json), "the reduced basis cannot represent"));
+  BOOST_TEST(!warns(analyze_json(json), "the reduced basis cannot represent"));
 }
 
 namespace {
@@ -188,7 +188,7 @@ AnalysisResult turn_platform(double angle, const Json& analysis = {{"statics", J
   })");
   json["model"]["trajectory"]["line"]["to"]["phi_rad"] = angle;
   json["analysis"] = analysis;
-  AnalysisResult result = result_of(json);
+  AnalysisResult result = analyze_json(json);
   BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
   return result;
 }
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
 
 // Tests the warning about a parallel singularity of the manipulator. The lines of the distal links
 // intersect in P if the platform angle is 0.669 rad, which is at 0.744 of the path.
-BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
+BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_causes_a_warning) {
   const AnalysisResult result = turn_platform(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),
                       "of the first point after a parallel singularity is 0.75 s"),

@@ -59,17 +59,17 @@ BOOST_AUTO_TEST_CASE(straight_limb_has_infinite_derivatives_by_its_lengths) {
   const double r = (C - design.geometry.base[0]).norm();
   design.geometry.proximal[0] = design.geometry.distal[0] = r / 2;
   const FrequencySensitivity s =
-      frequency_sensitivity(design, pose, {all(Kind::E), one_length(1, true)}, 4);
+      frequency_sensitivity(design, pose, {all(Kind::E), length_parameter(1, true)}, 4);
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   const VectorXd differences =
-      differentiate_frequencies(design, pose, one_length(1, true), 4).derivative;
+      differentiate_frequencies(design, pose, length_parameter(1, true), 4).derivative;
   for (Index n = 0; n < 4; ++n) {
     BOOST_TEST(s.derivative(n, 0) * 2 * 6.9e10 == s.frequency[n],
                boost::test_tools::tolerance(1e-11));
     BOOST_TEST(std::abs(s.derivative(n, 1) - differences[n]) <
                1e-7 * s.derivative.col(1).cwiseAbs().maxCoeff());
   }
-  const Outcome own = frequency_sensitivity(design, pose, {one_length(0, true)}, 4).outcome;
+  const Outcome own = frequency_sensitivity(design, pose, {length_parameter(0, true)}, 4).outcome;
   BOOST_TEST(own.reason.find("straight") != std::string::npos);
 }
 
@@ -80,11 +80,11 @@ BOOST_AUTO_TEST_CASE(only_the_named_parameter_is_perturbed) {
                           Kind::platform_joint_stiffness})
     BOOST_TEST(parameter_value(design, {.kind = kind}) == 0);
   const Pose pose{0.27, 0.15, 0.1};
-  const DesignInPose wider = perturbed(design, pose, {.kind = Kind::base_side}, 0.1);
+  const DesignInPose wider = perturb_design(design, pose, {.kind = Kind::base_side}, 0.1);
   BOOST_TEST((wider.design.geometry.base[0] - Vector2d(1, 2)).norm() == 0);
   BOOST_TEST((wider.design.geometry.base[1] - Vector2d(1.6, 2)).norm() < 1e-15);
   BOOST_TEST(wider.pose.phi == pose.phi);
-  const DesignInPose turned = perturbed(design, pose, {.kind = Kind::orientation}, 0.2);
+  const DesignInPose turned = perturb_design(design, pose, {.kind = Kind::orientation}, 0.2);
   BOOST_TEST(turned.pose.phi == pose.phi + 0.2);
   BOOST_TEST(turned.design.geometry.base[1] == design.geometry.base[1]);
 }

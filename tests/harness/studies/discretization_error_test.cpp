@@ -33,7 +33,7 @@ struct Estimated {
   }
 };
 
-Estimated estimated(const Json& json) {
+Estimated estimate(const Json& json) {
   const References references;
   const Document document = document_of(json);
   Estimated found{analyze(document, references, {}), {}};
@@ -77,10 +77,10 @@ Json vibrating_cantilever() {
 
 BOOST_AUTO_TEST_CASE(error_bands_of_frequencies_contain_converged_values) {
   const std::vector<double> converged =
-      estimated(with_links(user_manipulator(), 32)).values("frequency_Hz");
+      estimate(with_links(user_manipulator(), 32)).values("frequency_Hz");
   for (const Json& json : {user_manipulator(), with_links(user_manipulator(), 1),
                            with_links(user_manipulator(), 2), with_links(user_manipulator(), 6)}) {
-    const Estimated found = estimated(json);
+    const Estimated found = estimate(json);
     const results::ErrorEstimate& error = found.of("frequency_Hz");
     for (std::size_t mode = 0; mode < converged.size(); ++mode) {
       const double computed = found.values("frequency_Hz")[mode];
@@ -92,13 +92,13 @@ BOOST_AUTO_TEST_CASE(error_bands_of_frequencies_contain_converged_values) {
 
 BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   const std::vector<double> converged =
-      estimated(with_links(user_manipulator(), 32)).values("frequency_Hz");
-  const Estimated by_default = estimated(user_manipulator());
+      estimate(with_links(user_manipulator(), 32)).values("frequency_Hz");
+  const Estimated by_default = estimate(user_manipulator());
   for (std::size_t mode = 0; mode < converged.size(); ++mode)
     BOOST_TEST(by_default.values("frequency_Hz")[mode] == converged[mode],
                boost::test_tools::tolerance(1e-3));
   BOOST_TEST(error_warnings(by_default.errors, 0.01).empty());
-  const auto warnings = error_warnings(estimated(with_links(user_manipulator(), 1)).errors, 0.01);
+  const auto warnings = error_warnings(estimate(with_links(user_manipulator(), 1)).errors, 0.01);
   BOOST_TEST_REQUIRE(!warnings.empty());
   BOOST_TEST(contains(warnings.front(), "frequency_Hz[3, 4 and 5]"));
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
@@ -111,11 +111,11 @@ BOOST_AUTO_TEST_CASE(mode_with_few_elements_per_half_wave_has_order_two) {
   json["analysis"] = {{"modes", {{"count", 2}}}};
   for (const int elements : {4, 8}) {
     json["model"]["elements"] = elements;
-    BOOST_TEST(*estimated(json).of("frequency_Hz").order == (elements == 4 ? 2 : 4));
+    BOOST_TEST(*estimate(json).of("frequency_Hz").order == (elements == 4 ? 2 : 4));
   }
 }
 
-BOOST_AUTO_TEST_CASE(motion_without_a_step_controls_its_error) {
+BOOST_AUTO_TEST_CASE(motion_without_a_given_step_controls_its_error) {
   Json json = vibrating_cantilever();
   json["analysis"]["transient"].erase("step_s");
   const Folder folder;
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(motion_without_a_step_controls_its_error) {
 }
 
 BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
-  const Estimated found = estimated(cantilever());
+  const Estimated found = estimate(cantilever());
   BOOST_TEST(!found.of("displacement_y_m:B").order.has_value());
   BOOST_TEST(*found.of("displacement_y_m:B").relative.front() < 1e-10);
 }
@@ -146,17 +146,17 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_straight_member_gives_no_warning) {
   model["elements"] = 16;
   model.erase("loads");
   model["follower_loads"]["tip"] = {{"node", "B"}, {"force_N", {-force_N * c, -force_N * s}}};
-  BOOST_TEST(error_warnings(estimated(json).errors, 0.01).empty());
+  BOOST_TEST(error_warnings(estimate(json).errors, 0.01).empty());
 }
 
-BOOST_AUTO_TEST_CASE(error_of_an_odd_mesh_uses_twice_the_elements) {
+BOOST_AUTO_TEST_CASE(error_of_odd_element_count_uses_twice_the_elements) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   json["model"]["elements"] = 3;
-  const Estimated found = estimated(json);
+  const Estimated found = estimate(json);
   BOOST_TEST(found.errors.companions == "twice the elements");
   json["model"]["elements"] = 24;
-  const std::vector<double> converged = estimated(json).values("frequency_Hz");
+  const std::vector<double> converged = estimate(json).values("frequency_Hz");
   for (std::size_t mode = 0; mode < 3; ++mode) {
     const double computed = found.values("frequency_Hz")[mode];
     BOOST_TEST(std::abs(computed - converged[mode]) <=
@@ -167,14 +167,14 @@ BOOST_AUTO_TEST_CASE(error_of_an_odd_mesh_uses_twice_the_elements) {
 BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
-  const Estimated meters = estimated(json);
+  const Estimated meters = estimate(json);
   constexpr double kLength = 1e3, kMass = 1e-3;  // units mm and t instead of m and kg
   Json& model = json["model"];
   model["materials"]["steel"]["E_Pa"] = 2e11 * kMass / kLength;
   model["materials"]["steel"]["rho_kg_m3"] = 7800 * kMass / (kLength * kLength * kLength);
   model["sections"]["bar"]["rectangle"] = {{"thickness_m", 100}, {"width_m", 50}};
   model["nodes"]["B"] = {2000, 0};
-  const Estimated millimeters = estimated(json);
+  const Estimated millimeters = estimate(json);
   for (std::size_t mode = 0; mode < 3; ++mode)
     BOOST_TEST(
         *millimeters.of("frequency_Hz").relative[mode] == *meters.of("frequency_Hz").relative[mode],
@@ -185,12 +185,12 @@ BOOST_AUTO_TEST_CASE(error_bands_of_time_steps_contain_the_exact_motion) {
   Json exact = vibrating_cantilever();
   exact["analysis"]["transient"]["method"] = "modal-superposition";
   exact["model"]["elements"] = 16;
-  const std::vector<double> truth = estimated(exact).values("displacement_y_m:B");
+  const std::vector<double> truth = estimate(exact).values("displacement_y_m:B");
   for (const double step_s : {1e-3, 5e-4, 1e-4, -1e-3}) {  // negative: maximum step
     Json json = vibrating_cantilever();
     json["analysis"]["transient"]["step_s"] = std::abs(step_s);
     if (step_s < 0) json["analysis"]["transient"]["error_control"]["relative"] = 10;
-    const Estimated found = estimated(json);
+    const Estimated found = estimate(json);
     const std::vector<double>& computed = found.values("displacement_y_m:B");
     const double allowed = *found.of("displacement_y_m:B").error_half_width(0, 0);
     for (std::size_t i = 0; i < truth.size(); ++i)
@@ -201,17 +201,17 @@ BOOST_AUTO_TEST_CASE(error_bands_of_time_steps_contain_the_exact_motion) {
 
 /// Tests the error estimate of a motion whose time steps have the length of the sampling interval,
 /// because the tolerance of the error control permits longer steps.
-BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
+BOOST_AUTO_TEST_CASE(time_steps_limited_by_samples_have_an_error) {
   const std::string name = "displacement_x_m:P";
   Json json = user_manipulator();
   json.merge_patch(Json::parse(R"({"model": {"pose": null, "trajectory": {"circle": {"points": 41,
     "center_m": [0.4, 0.23], "radius_m": 0.02, "step_s": 0.005, "angular_speed_rad_s": 31.4}}},
     "analysis": {"modes": null, "elastodynamics": {"initial_state": "quasi-static",
                                                    "error_control": {"relative": 10}}}})"));
-  const Estimated limited = estimated(json);
+  const Estimated limited = estimate(json);
   const AccuracySearch search = search_accuracy(document_of(json), {1e-3, {name}, 60}, {});
   json["analysis"]["elastodynamics"] = {{"initial_state", "quasi-static"}, {"step_s", 2e-5}};
-  const std::vector<double> truth = estimated(with_links(json, 16)).values(name);
+  const std::vector<double> truth = estimate(with_links(json, 16)).values(name);
   const double allowed = *limited.of(name).error_half_width(0, 0), size = std::ranges::max(truth);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     BOOST_TEST(std::abs(limited.values(name)[i] - truth[i]) <= allowed);
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
 BOOST_AUTO_TEST_CASE(accuracy_search_reaches_the_requested_error) {
   const References references;
   const std::vector<double> converged =
-      estimated(with_links(user_manipulator(), 64)).values("frequency_Hz");
+      estimate(with_links(user_manipulator(), 64)).values("frequency_Hz");
   for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
     const AccuracySearch search =
         search_accuracy(document_of(user_manipulator()), {accuracy, {}, 60}, references);
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(accuracy_search_reaches_the_requested_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(search_refines_mesh_and_step) {
+BOOST_AUTO_TEST_CASE(accuracy_search_refines_mesh_and_time_step) {
   const References references;
   const AccuracySearch search =
       search_accuracy(document_of(vibrating_cantilever()), {1e-3, {}, 60}, references);
@@ -280,7 +280,7 @@ BOOST_AUTO_TEST_CASE(default_element_count_depends_on_analysis_and_member) {
   BOOST_TEST(element_count_of(document_of(json), "AB") == 3);
 }
 
-BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {
+BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_cause_a_warning) {
   Json json = user_manipulator();
   json["model"]["pose"]["phi_rad"] = 30;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/pose/phi_rad is 30 rad"));

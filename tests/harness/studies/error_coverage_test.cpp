@@ -94,19 +94,19 @@ std::vector<double> cost_of(const Document& document, const AnalysisResult& own,
 /// Returns the values of a quantity on another level (mesh and step) at the samples of the case;
 /// NaN if the level has no such sample. Frequencies are matched by mode shape or by mode number,
 /// whichever yields the nearer frequency.
-std::vector<double> values_on(const AnalysisResult& level, const AnalysisResult& own,
-                              const std::string& name) {
+std::vector<double> values_on_level(const AnalysisResult& level, const AnalysisResult& own,
+                                    const std::string& name) {
   const std::vector<double>& given = own.quantities.at(name).values;
   std::vector<double> found(given.size(), kNaN);
   const auto other = level.quantities.find(name);
   if (other == level.quantities.end() || other->second.values.empty()) return found;
   const std::vector<double>& values = other->second.values;
   const auto samples =
-      matched_samples(own.quantities, level.quantities, given.size(), values.size());
+      samples_matched_by_time(own.quantities, level.quantities, given.size(), values.size());
   for (std::size_t i = 0; i < given.size(); ++i)
     if (samples[i]) found[i] = values[*samples[i]];
   if (name != "frequency_Hz") return found;
-  const auto modes = matched_modes(own, level);
+  const auto modes = modes_matched_by_shape(own, level);
   for (std::size_t i = 0; i < given.size(); ++i)
     if (modes[i] && *modes[i] < values.size() &&
         !(std::abs(found[i] - given[i]) < std::abs(values[*modes[i]] - given[i])))
@@ -123,8 +123,8 @@ Json rows_of(const std::string& kind, const AnalysisResult& own,
   for (const auto& [name, quantity] : own.quantities) {
     if (!is_estimated(name) || (name == "frequency_Hz" && kind == "harmonic")) continue;
     const results::ErrorEstimate* estimate = errors.find(name);
-    const std::vector<double> truths = values_on(levels.back(), own, name);
-    const std::vector<double> previous = values_on(levels[levels.size() - 2], own, name);
+    const std::vector<double> truths = values_on_level(levels.back(), own, name);
+    const std::vector<double> previous = values_on_level(levels[levels.size() - 2], own, name);
     const bool is_curve = estimate && estimate->relative.size() < quantity.values.size();
     Json largest;
     for (std::size_t i = 0; i < quantity.values.size(); ++i) {
@@ -145,7 +145,7 @@ Json rows_of(const std::string& kind, const AnalysisResult& own,
 void add_level(const std::string& level, const Document& document, Json& levels) {
   const References references;
   AnalysisResult own = analyze(document, references, {true});
-  if (!own.outcome.solved() || !can_be_refined(document)) return;
+  if (!own.outcome.solved() || !has_mesh_or_time_steps(document)) return;
   const results::ErrorEstimates errors = estimate_errors(document, own, references);
   const std::vector<AnalysisResult> finer = finer_levels(document, own, references);
   if (finer.size() < 3) return;  // too few levels to determine the true errors
@@ -157,7 +157,7 @@ void add_level(const std::string& level, const Document& document, Json& levels)
 
 /// Returns the levels of a case as JSON: up to four variants, the default mesh, and the first two
 /// levels of each sweep.
-std::string levels_of(const Case& given) {
+std::string case_levels(const Case& given) {
   Json levels = Json::array();
   const auto add = [&](const std::string& name, const Document& document) {
     try {
@@ -236,7 +236,7 @@ void add_row(const Json& row, const std::string& level, Tally& tally, std::vecto
 BOOST_AUTO_TEST_CASE(stated_errors_cover_true_errors) {
   std::vector<ProcessTask> tasks;
   const std::vector<Case> cases = Catalogue().load();
-  for (const Case& given : cases) tasks.push_back({[&given] { return levels_of(given); }, 900});
+  for (const Case& given : cases) tasks.push_back({[&given] { return case_levels(given); }, 900});
   std::map<std::string, Tally> tallies;
   std::vector<Miss> misses;
   std::set<std::array<int, 2>> points;
@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(stated_errors_cover_true_errors) {
       for (const Json& row : level["rows"]) add_row(row, level["level"], tally, misses, points);
     }
   };
-  BOOST_TEST(run_in_processes(tasks, {2}, ended) == 0);
+  BOOST_TEST(run_in_worker_processes(tasks, {2}, ended) == 0);
   // To update the report, replace the files of the same names in reports/templates by these files.
   std::ofstream scatter("error_coverage.csv");
   for (const auto& [truth, stated] : points) scatter << truth << ' ' << stated << '\n';

@@ -32,11 +32,11 @@ std::vector<Document> random_scenes(int seed, const std::string& options) {
   return scenes;
 }
 
-EffectStudy study_of(const Document& scene) {
+EffectStudy study_scene(const Document& scene) {
   return study_effects(scene, {0.01, 0});
 }
 
-std::vector<std::string> selections(const std::string& options) {
+std::vector<std::string> effect_selections(const std::string& options) {
   std::vector<std::string> names;
   for (const Document& scene : random_scenes(2, options))
     names.push_back(effect_names(choose_effects(scene, read_case_model(scene)).chosen));
@@ -68,10 +68,10 @@ const Scene kHardScenes[] = {
 
 }  // namespace
 
-BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::make(kHardScenes),
-                     scene) {
+BOOST_DATA_TEST_CASE(effect_selection_holds_for_hard_scenes,
+                     boost::unit_test::data::make(kHardScenes), scene) {
   const EffectStudy study =
-      study_of(random_scenes(scene.seed, std::to_string(scene.number)).front());
+      study_scene(random_scenes(scene.seed, std::to_string(scene.number)).front());
   BOOST_TEST(study.within_tolerance());
 }
 
@@ -80,7 +80,7 @@ BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::ma
 /// is more expensive.
 BOOST_AUTO_TEST_CASE(selecting_effects_costs_less_than_it_saves) {
   for (const int number : {29, 89, 169}) {
-    const EffectStudy study = study_of(random_scenes(2, std::to_string(number)).front());
+    const EffectStudy study = study_scene(random_scenes(2, std::to_string(number)).front());
     BOOST_TEST(study.work_ratio() < 1.2, "scene " << number << ", " << study.work_ratio());
   }
 }
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(selection_is_accurate_and_minimal_for_random_scenes) {
   const std::vector<Document> scenes = random_scenes(1, "$(seq 0 99)");
   BOOST_REQUIRE(scenes.size() == 100U);
   for (const Document& scene : scenes) {
-    const EffectStudy study = study_of(scene);
+    const EffectStudy study = study_scene(scene);
     if (!study.full.outcome.solved()) continue;
     for (const EffectRun& run : study.without_one)
       BOOST_TEST((run.outcome.solved() || std::isinf(run.largest_change())));
@@ -103,13 +103,13 @@ BOOST_AUTO_TEST_CASE(selection_is_accurate_and_minimal_for_random_scenes) {
   BOOST_TEST(minimal >= 0.9 * solved);
 }
 
-BOOST_DATA_TEST_CASE(selection_does_not_depend_on_axes_order_or_units,
+BOOST_DATA_TEST_CASE(effect_selection_ignores_axes_order_and_units,
                      boost::unit_test::data::make({"rotate", "mirror", "rename", "reverse",
                                                    "length", "mass", "time"}),
                      transform) {
-  const std::vector<std::string> original = selections("$(seq 0 99)");
+  const std::vector<std::string> original = effect_selections("$(seq 0 99)");
   const std::vector<std::string> transformed =
-      selections("$(seq 0 99) --transform " + std::string(transform));
+      effect_selections("$(seq 0 99) --transform " + std::string(transform));
   BOOST_TEST(original == transformed, boost::test_tools::per_element());
 }
 

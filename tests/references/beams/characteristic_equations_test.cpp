@@ -26,19 +26,19 @@ BOOST_AUTO_TEST_CASE(clamped_corner_has_the_known_exponent) {
     const std::string arguments =
         R"({"clamped_side": [3, 0], "free_side": [0, 2], "nu": 0, "plane": ")" +
         std::string(plane) + "\"}";
-    check_equal(run("wedge-exponent", arguments.c_str()), {1}, 1e-15);
+    check_equality(run("wedge-exponent", arguments.c_str()), {1}, 1e-15);
   }
 }
 
 BOOST_AUTO_TEST_CASE(elastica_output_column_is_scaled_by_the_length) {
   const auto all = run("elastica-tip-force", R"({"load_parameter": [1, 10]})");
-  check_equal(run("elastica-tip-force",
-                  R"({"load_parameter": [1, 10], "output": "shortening", "length_m": 3})"),
-              {3 * all[1], 3 * all[4]}, 4e-16);
-  check_equal(run("elastica-tip-force", R"({"load_parameter": [1, 10], "output": "angle"})"),
-              {all[2], all[5]}, 4e-16);
+  check_equality(run("elastica-tip-force",
+                     R"({"load_parameter": [1, 10], "output": "shortening", "length_m": 3})"),
+                 {3 * all[1], 3 * all[4]}, 4e-16);
+  check_equality(run("elastica-tip-force", R"({"load_parameter": [1, 10], "output": "angle"})"),
+                 {all[2], all[5]}, 4e-16);
   const auto column = run("elastica-column", R"({"tip_angle_deg": [60, 120]})");
-  check_equal(
+  check_equality(
       run("elastica-column", R"({"tip_angle_deg": [60, 120], "output": "axial", "length_m": 2})"),
       {2 * column[2], 2 * column[5]}, 4e-16);
 }
@@ -53,14 +53,14 @@ BOOST_AUTO_TEST_CASE(deep_beam_under_load_agrees_with_closed_forms) {
   };
   const double bending = 5 * 1e6 * 1e4 / (384 * 2e11 * 4 / 3);
   const double shear = 1e6 * 100 / (8 * 0.8496732026143791 * 2e11 / 2.6 * 4);
-  check_equal(response(R"({"response": "static", "outputs": ["displacement_m", "stress_Pa"]})"),
-              {bending + shear, 9.375e6}, 1e-10);
-  check_equal(response(R"({"response": "harmonic-peak", "damping_ratio": 0.02,
+  check_equality(response(R"({"response": "static", "outputs": ["displacement_m", "stress_Pa"]})"),
+                 {bending + shear, 9.375e6}, 1e-10);
+  check_equality(response(R"({"response": "harmonic-peak", "damping_ratio": 0.02,
                            "outputs": ["displacement_m", "stress_Pa", "frequency_Hz"]})"),
-              {13.489e-3, 242.55e6, 42.628}, 4e-5);
-  check_equal(response(R"({"response": "step-peak", "damping_ratio": 0.02,
+                 {13.489e-3, 242.55e6, 42.628}, 4e-5);
+  check_equality(response(R"({"response": "step-peak", "damping_ratio": 0.02,
                            "outputs": ["displacement_m", "time_s"]})"),
-              {1.04188e-3, 0.01156}, 8e-4);
+                 {1.04188e-3, 0.01156}, 8e-4);
   const double undamped =
       response(R"({"response": "step-peak", "outputs": ["displacement_m"]})")[0];
   BOOST_TEST(undamped > 1.95 * (bending + shear));

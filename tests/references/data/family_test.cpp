@@ -8,7 +8,7 @@ BOOST_AUTO_TEST_SUITE(family)
 using namespace trammel::references;
 using Json = nlohmann::json;
 
-BOOST_AUTO_TEST_CASE(members_are_split_at_brackets_outside_strings) {
+BOOST_AUTO_TEST_CASE(json_members_are_split_at_brackets_outside_strings) {
   const auto members = json_members(R"( {"b": {"x": [1, "}\"]\\"]}, "a" : "\\", "c":1} )");
   BOOST_REQUIRE(members.has_value());
   BOOST_TEST(members->size() == 3U);
@@ -39,10 +39,10 @@ BOOST_AUTO_TEST_CASE(keys_of_a_reference_override_those_of_its_family) {
     "derivation": {"program": "p", "arguments": {"a": {"x": 1}}}})");
   const Json own = Json::parse(R"({"uncertainty": {"absolute": 2},
     "derivation": {"arguments": {"a": {"y": 2}, "b": 3}}})");
-  BOOST_TEST(add_common_keys(common, own) ==
+  BOOST_TEST(merge_common_keys(common, own) ==
              Json::parse(R"({"unit": "m", "uncertainty": {"absolute": 2},
     "derivation": {"program": "p", "arguments": {"a": {"x": 1, "y": 2}, "b": 3}}})"));
-  BOOST_TEST(add_common_keys(Json(), {{"unit", "m"}}) == (Json{{"unit", "m"}}));
+  BOOST_TEST(merge_common_keys(Json(), {{"unit", "m"}}) == (Json{{"unit", "m"}}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

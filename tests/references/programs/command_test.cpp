@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(corrupted_reference_returns_status_1) {
   BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(unproved_digit_is_shown) {
+BOOST_AUTO_TEST_CASE(unproved_digit_of_a_reference_is_printed) {
   Json reference = roots();
   const Outcome right = run({roots_place});
   BOOST_TEST(right.out.find("all digits stored are proved") != std::string::npos);

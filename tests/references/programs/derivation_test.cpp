@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(every_stored_value_agrees_with_its_derivation) {
   BOOST_TEST(derived > 200);
 }
 
-BOOST_AUTO_TEST_CASE(exact_values_have_a_derivation_and_all_a_source) {
+BOOST_AUTO_TEST_CASE(exact_values_have_derivations_and_all_have_sources) {
   std::ifstream in(root / "bibliography.json");
   const Json bibliography = Json::parse(in);
   for (const auto& [id, reference] : stored()) {
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(changed_proved_digit_is_caught) {
   BOOST_CHECK_THROW((void)prove("pendulum", Json::object()), DerivationError);
 }
 
-BOOST_AUTO_TEST_CASE(wrong_length_and_nan_never_agree) {
+BOOST_AUTO_TEST_CASE(wrong_length_and_nan_never_agree_with_derivation) {
   Comparison comparison;
   comparison.stored = {1.0, 2.0};
   comparison.uncertainty = {1e-9, 1e-9};

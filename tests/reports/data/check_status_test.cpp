@@ -12,7 +12,7 @@ BOOST_AUTO_TEST_CASE(failure_and_error_are_no_pass) {
   BOOST_TEST(!all_checks_pass({{CheckStatus::passes, 3}, {CheckStatus::error, 1}}));
 }
 
-BOOST_AUTO_TEST_CASE(group_has_the_verdict_of_its_worst_entry) {
+BOOST_AUTO_TEST_CASE(check_group_has_the_verdict_of_its_worst_entry) {
   std::array<Check, 3> checks;
   for (Check& check : checks) check.verdict = Verdict::pass;
   checks[1].verdict = Verdict::fail;

@@ -40,7 +40,7 @@ std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
   return out << refusal.pointer << " " << refusal.value;
 }
 
-std::string complaint_about(const std::string& text) {
+std::string refusal_message(const std::string& text) {
   const Workspace workspace;
   const auto file = workspace.path() / "results.json";
   std::ofstream(file) << text;
@@ -61,11 +61,11 @@ BOOST_DATA_TEST_CASE(invalid_value_is_refused_with_its_pointer, kRefusals, refus
   const std::string value = refusal.value;
   ordered_json step = {{"op", value.empty() ? "remove" : "replace"}, {"path", refusal.pointer}};
   if (!value.empty()) step["value"] = ordered_json::parse(value);
-  BOOST_TEST(complaint_about(json.patch(ordered_json::array({step})).dump()) == refusal.message);
+  BOOST_TEST(refusal_message(json.patch(ordered_json::array({step})).dump()) == refusal.message);
 }
 
 BOOST_AUTO_TEST_CASE(text_that_is_not_json_is_refused_with_its_byte) {
-  BOOST_TEST(complaint_about("{\"format\": 1,, }") == "not JSON at byte 14");
+  BOOST_TEST(refusal_message("{\"format\": 1,, }") == "not JSON at byte 14");
   const Workspace workspace;
   BOOST_CHECK_EXCEPTION((void)read_results(workspace.path() / "none.json"), std::runtime_error,
                         [](const auto& error) {

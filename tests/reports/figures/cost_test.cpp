@@ -55,7 +55,7 @@ Results cost_results() {
   study.settings.push_back(setting_without_result(128, "failed", "six modes of <three>"));
   study.cheapest = {{0.05, 1, {0}}, {1e-3, 2, {}}, {1e-6, {}, {}}};
   study.repeatability = 0.034;
-  Results results = sample_of("none");
+  Results results = sample_results_of_case("none");
   results.cases.clear();
   results.references.clear();
   results.cost = CostStudies{"quick", 1, 7, 0.05, 10, {study}};

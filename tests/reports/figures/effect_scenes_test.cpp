@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(caption_counts_accurate_and_minimal_scenes) {
   BOOST_TEST(effect_scene_figures({}).empty());
 }
 
-BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_kept_effects) {
+BOOST_AUTO_TEST_CASE(figure_of_a_scene_shows_selected_effects) {
   CaseInfo info;
   Results results;
   Run run;

@@ -12,7 +12,7 @@ using namespace trammel::results;
 
 namespace {
 
-std::string junit_of(const Results& results) {
+std::string to_junit(const Results& results) {
   const Workspace workspace;
   trammel::reports::write_junit(results, workspace.path() / "junit.xml");
   return read_text_file(workspace.path() / "junit.xml");
@@ -26,10 +26,10 @@ BOOST_AUTO_TEST_CASE(each_check_and_each_run_is_a_testcase) {
   for (const Run& run : results.runs)
     for (const trammel::reports::CheckGroup& group : trammel::reports::group_checks(run)) {
       ++testcases;
-      known += trammel::reports::check_status(group.worst()) ==
+      known += trammel::reports::find_status(group.worst()) ==
                trammel::reports::CheckStatus::known_discrepancy;
     }
-  const std::string xml = junit_of(results);
+  const std::string xml = to_junit(results);
   BOOST_TEST(occurrences(xml, "<testsuite ") == results.cases.size());
   BOOST_TEST(occurrences(xml, "<testcase ") == testcases);
   BOOST_TEST(occurrences(xml, "<failure ") == 1U);
@@ -42,9 +42,9 @@ BOOST_AUTO_TEST_CASE(each_check_and_each_run_is_a_testcase) {
                                   "\" failures=\"1\" errors=\"2\"") == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(names_do_not_depend_on_the_outcome) {
+BOOST_AUTO_TEST_CASE(testcase_names_do_not_depend_on_the_outcome) {
   Results results = sample_results();
-  const auto names = [&] { return attribute_values(junit_of(results), "name"); };
+  const auto names = [&] { return attribute_values(to_junit(results), "name"); };
   const std::vector<std::string> before = names();
   for (Run& run : results.runs) {
     run.status = Status::singular;
@@ -59,22 +59,22 @@ BOOST_AUTO_TEST_CASE(changed_discrepancy_is_a_failure_of_its_own_type) {
   for (Run& run : results.runs)
     for (Check& check : run.checks)
       if (check.is_known_discrepancy()) check.verdict = Verdict::fail;
-  BOOST_TEST(occurrences(junit_of(results), "<failure type=\"trammel.changed-discrepancy\"") > 0U);
+  BOOST_TEST(occurrences(to_junit(results), "<failure type=\"trammel.changed-discrepancy\"") > 0U);
 }
 
 BOOST_AUTO_TEST_CASE(text_from_the_results_is_escaped) {
   Results results = sample_results();
   results.runs.back().reason = "a < b && \"c\" \x01";
-  const std::string xml = junit_of(results);
+  const std::string xml = to_junit(results);
   BOOST_TEST(markup_fault(xml, false) == "");
   BOOST_TEST(xml.find("message=\"a &lt; b &amp;&amp; &quot;c&quot;  \"") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(singular_run_fails_unless_a_check_expects_it) {
-  Results results = sample_of("vpcs-sdll02");
-  BOOST_TEST(occurrences(junit_of(results), "<failure ") == 0U);
+  Results results = sample_results_of_case("vpcs-sdll02");
+  BOOST_TEST(occurrences(to_junit(results), "<failure ") == 0U);
   results.runs.back().checks.clear();
-  BOOST_TEST(occurrences(junit_of(results), "<failure ") == 1U);
+  BOOST_TEST(occurrences(to_junit(results), "<failure ") == 1U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -74,7 +74,7 @@ class WithoutGnuplot {
 
 /// Returns a title with commands that would make gnuplot create a file, and with all control
 /// characters.
-std::string commanding_title(const std::string& file) {
+std::string title_with_gnuplot_commands(const std::string& file) {
   std::string title = "'; system('touch " + file + "'); `touch " + file + "`\n!touch " + file +
                       "\n$(touch " + file + ")|set output @x %d \"";
   for (char c = 1; c < 0x20; ++c) title += c;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(each_figure_is_in_the_page_and_has_its_data) {
 }
 
 BOOST_AUTO_TEST_CASE(curve_has_a_row_for_each_point_or_a_reason) {
-  Results results = sample_of("vpcs-sdll02");
+  Results results = sample_results_of_case("vpcs-sdll02");
   CaseInfo& info = results.cases[1];
   info.figures = {{"f", "Force", "time_s", "", {"force_N:P"}, {"base"}},
                   {"g", "Stress", "time_s", "", {"stress_Pa:A-B"}, {"base"}}};
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(curve_has_a_row_for_each_point_or_a_reason) {
 
 BOOST_AUTO_TEST_CASE(powers_of_ten_are_typeset_in_text_only) {
   const Workspace workspace;
-  Results results = sample_of("vpcs-sdll02");
+  Results results = sample_results_of_case("vpcs-sdll02");
   results.cases[1].description = "below 1e-6 of all";
   results.cases[1].title = "Frame of 2.5e3";
   write_report(results, workspace.path());
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
 }
 
 BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
-  Results results = sample_of("vpcs-sdll02");
+  Results results = sample_results_of_case("vpcs-sdll02");
   const auto claim = [](const char* id, const char* words, const char* verdict,
                         const char* expected, const char* undecidable,
                         const std::vector<ClaimInterpretation>& readings) {
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(equal_results_make_equal_reports) {
 }
 
 BOOST_AUTO_TEST_CASE(report_states_success_only_without_any_failure) {
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   const Workspace workspace;
   write_report(results, workspace.path() / "good");
   const std::string good = text_of_pages(workspace.path() / "good");
@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(report_states_success_only_without_any_failure) {
 }
 
 BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   Check known = results.runs[0].checks[0];
   known.name = "printed";
   known.role = "validation";
@@ -271,7 +271,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
 }
 
 BOOST_AUTO_TEST_CASE(audit_counts_other_discrepancies_by_reason) {
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   Check known = results.runs[0].checks[0];
   known.expectation = Expectation::known_discrepancy;
   for (const int i : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 12}) {
@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(second_report_leaves_nothing_of_the_first) {
   const fs::path out = workspace.path() / "out";
   write_report(sample_results(), out);
   std::ofstream(out / "figures" / "mine.svg") << "kept";
-  write_report(sample_of("beam-pinned-pinned"), out);
+  write_report(sample_results_of_case("beam-pinned-pinned"), out);
   const std::string text = text_of_pages(out);
   std::size_t drawings = 0;
   for (const auto& entry : fs::directory_iterator(out / "figures"))
@@ -333,7 +333,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
 
 BOOST_AUTO_TEST_CASE(unchanged_figures_are_not_drawn_again) {
   const Workspace workspace;
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   results.environment.stored_runs = 1;
   write_report(results, workspace.path());
   const fs::path drawing = fs::directory_iterator(workspace.path() / "figures")->path().string();
@@ -373,15 +373,15 @@ BOOST_AUTO_TEST_CASE(similar_names_have_separate_files) {
 
 BOOST_AUTO_TEST_CASE(titles_and_folders_cannot_become_gnuplot_commands) {
   const Workspace workspace;
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   const std::string file = (workspace.path() / "intruder").string();
-  results.cases[0].title = commanding_title(file);
-  results.cases[0].variants[0].title = commanding_title(file);
+  results.cases[0].title = title_with_gnuplot_commands(file);
+  results.cases[0].variants[0].title = title_with_gnuplot_commands(file);
   BOOST_TEST((page_of(results).find('\x1b') == std::string::npos));
   BOOST_TEST(!fs::exists(file));
   const fs::path here = fs::current_path();
   fs::current_path(workspace.path());
-  const std::string folder = commanding_title("intruder") + "é";
+  const std::string folder = title_with_gnuplot_commands("intruder") + "é";
   BOOST_CHECK_NO_THROW(write_report(results, folder));
   fs::current_path(here);
   BOOST_TEST(fs::exists(workspace.path() / folder / "index.html"));
@@ -389,7 +389,7 @@ BOOST_AUTO_TEST_CASE(titles_and_folders_cannot_become_gnuplot_commands) {
 }
 
 BOOST_AUTO_TEST_CASE(results_without_any_run_make_a_page) {
-  const std::string text = page_of(sample_of("none"));
+  const std::string text = page_of(sample_results_of_case("none"));
   BOOST_TEST(text.find("No checks were made; there is nothing") != std::string::npos);
   BOOST_TEST(markup_fault(text, true) == "");
 }

@@ -12,7 +12,7 @@ using trammel::testing::contains;
 namespace {
 
 /// Returns the check of one value against a target of 100 Hz.
-Check compared(const std::string& name, int entry, double difference) {
+Check check_of_one_value(const std::string& name, int entry, double difference) {
   Check check;
   check.name = name;
   check.role = "validation";
@@ -43,7 +43,7 @@ struct Sample {
       run.variant = variant;
       run.status = Status::solved;
       for (int entry = 0; entry < 3; ++entry)
-        run.checks.push_back(compared("program", entry, 0.1 * (entry + 1)));
+        run.checks.push_back(check_of_one_value("program", entry, 0.1 * (entry + 1)));
       results.runs.push_back(run);
     }
     results.cases = {info};
@@ -66,7 +66,7 @@ struct Sample {
 
 BOOST_AUTO_TEST_CASE(conclusion_names_nearest_variant_of_missed_targets) {
   Sample sample;
-  sample.results.runs[2].checks[0] = compared("program", 0, 0.005);
+  sample.results.runs[2].checks[0] = check_of_one_value("program", 0, 0.005);
   const std::string words = sample.conclusion(sample.results.runs[0].checks[0]);
   BOOST_TEST(contains(words, "Nearest overall: c,"), words);
   BOOST_TEST(contains(words, "No variant comes within 1\u202f% of modes 2 (nearest +20\u202f%)"),
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(check_against_another_mode_has_no_matrix_column) {
   // result of this check in the column of mode 1, as if the target of mode 1 was reached.
   Sample sample;
   for (int entry = 0; entry < 2; ++entry)
-    sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));
+    sample.results.runs[1].checks.push_back(check_of_one_value("shifted", entry, 0.001));
   const std::string words = sample.conclusion(sample.results.runs[1].checks[0]);
   BOOST_TEST(contains(words, "modes 1 (nearest +10\u202f%), 2 (nearest +20\u202f%), 3"), words);
   BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // a single variant

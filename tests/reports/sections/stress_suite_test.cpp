@@ -11,7 +11,7 @@ using namespace trammel::results;
 namespace {
 
 /// Returns the sample with three of its cases as items 1, 3 and 4 of a stress suite.
-Results with_stress_suite() {
+Results results_with_stress_suite() {
   Results results = sample_results();
   results.cases[2].stress_suite = StressSuiteEntry{1, {"fe-program"}};
   results.cases[0].stress_suite = StressSuiteEntry{3, {"exact"}};
@@ -28,7 +28,7 @@ std::string stress_suite_text(const Results& results) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
-  Results results = with_stress_suite();
+  Results results = results_with_stress_suite();
   results.runs[0].checks[1].verdict = Verdict::fail;  // a check of the indicator "exact"
   const std::string text = stress_suite_text(results);
   BOOST_TEST(text.find("3 items, 3 cases, 3 indicators:") != std::string::npos);
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
 }
 
 BOOST_AUTO_TEST_CASE(stress_suite_indicator_without_a_run_fails) {
-  Results results = with_stress_suite();
+  Results results = results_with_stress_suite();
   for (CaseInfo& info : results.cases)
     if (info.stress_suite) info.stress_suite->indicators = {"nowhere"};
   const std::string text = stress_suite_text(results);

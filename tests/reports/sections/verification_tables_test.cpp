@@ -40,7 +40,7 @@ Comparison compared(int index, double simulation, double u_val, const std::strin
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(orders_and_uncertainties_are_counted) {
-  Results results = sample_of("beam-pinned-pinned");
+  Results results = sample_results_of_case("beam-pinned-pinned");
   results.uncertainty_coverage =
       UncertaintyCoverage{126, 125, 100, 125.0 / 126, 0.95, 1.25, 3, true};
   std::size_t fitted = 0, near = 0;

@@ -8,9 +8,9 @@ BOOST_AUTO_TEST_SUITE(number)
 using namespace trammel::reports;
 
 BOOST_AUTO_TEST_CASE(numbers_have_significant_digits) {
-  BOOST_TEST(significant(12.768, 4) == "12.77");
-  BOOST_TEST(significant(9.9996, 4) == "10.00");
-  BOOST_TEST(significant(0.0234, 3) == "0.0234");
+  BOOST_TEST(rounded_text(12.768, 4) == "12.77");
+  BOOST_TEST(rounded_text(9.9996, 4) == "10.00");
+  BOOST_TEST(rounded_text(0.0234, 3) == "0.0234");
   BOOST_TEST(trimmed(0.002, 4) == "0.002");
   BOOST_TEST(trimmed(631, 4) == "631");
   BOOST_TEST(trimmed(-3, 2) == "\u22123");
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(relative_differences_are_percent_unless_small) {
 BOOST_AUTO_TEST_CASE(shown_digits_distinguish_two_numbers) {
   const double target = 3.5160152685, computed = 3.5160179;
   const int digits = distinguishing_digits(target, computed);
-  BOOST_TEST(significant(target, digits) != significant(computed, digits));
+  BOOST_TEST(rounded_text(target, digits) != rounded_text(computed, digits));
   BOOST_TEST(distinguishing_digits(1.0, 2.0) == 4);
   BOOST_TEST(distinguishing_digits(1.0, 1.0 + 1e-15) == 6);
 }

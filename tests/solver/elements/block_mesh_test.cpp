@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(four_annulus_quarters_share_nodes_of_a_closed_ring) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(grading_is_the_ratio_of_last_and_first_cell) {
+BOOST_AUTO_TEST_CASE(mesh_grading_is_the_ratio_of_last_and_first_cell) {
   Block block;
   block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
   block.cells = {5, 1};

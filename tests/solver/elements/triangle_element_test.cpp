@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(quadratic_displacement_has_its_exact_energy) {
              tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(order_of_the_corners_does_not_matter) {
+BOOST_AUTO_TEST_CASE(order_of_the_triangle_corners_does_not_matter) {
   const Element<3> element;
   Element<3> clockwise;
   std::swap(clockwise.nodes[1], clockwise.nodes[2]);

@@ -33,7 +33,7 @@ MatrixXd random_matrix(Index rows, Index cols, unsigned seed) {
 
 /// Returns the prediction by Eq. 36 and 37 as printed by Varalakshmi and Srinivas (2017), in
 /// extended precision.
-double as_printed(const Grnn& g, const Eigen::RowVectorXd& x, Index output) {
+double prediction_as_printed(const Grnn& g, const Eigen::RowVectorXd& x, Index output) {
   long double above = 0;
   long double below = 0;
   for (Index i = 0; i < g.inputs.rows(); ++i) {
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
       const MatrixXd y = predict(g, queries);
       for (Index k = 0; k < queries.rows(); ++k)
         for (Index j = 0; j < 2; ++j)
-          BOOST_TEST(std::abs(y(k, j) - as_printed(g, queries.row(k), j)) < 1e-12);
+          BOOST_TEST(std::abs(y(k, j) - prediction_as_printed(g, queries.row(k), j)) < 1e-12);
     }
   }
 }
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(scaled_inputs_do_not_depend_on_their_unit) {
   BOOST_TEST((y - z).norm() < 1e-13);
 }
 
-BOOST_AUTO_TEST_CASE(batch_equals_single_queries) {
+BOOST_AUTO_TEST_CASE(batch_prediction_equals_single_predictions) {
   const Grnn g = make_grnn(random_matrix(100, 3, 14), random_matrix(100, 2, 15), 0.2);
   const MatrixXd queries = random_matrix(77, 3, 16), batch = predict(g, queries);
   for (Index k = 0; k < queries.rows(); ++k)
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(folds_are_even_and_in_the_requested_order) {
   BOOST_TEST(shuffled == fold_of_samples(1000, {10, FoldOrder::shuffled, 5}));
 }
 
-BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
+BOOST_AUTO_TEST_CASE(sample_split_has_the_requested_size_and_order) {
   const auto count = [](const std::vector<bool>& part) {
     return std::count(part.begin(), part.end(), true);
   };

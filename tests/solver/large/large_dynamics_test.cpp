@@ -18,8 +18,8 @@ using boost::test_tools::tolerance;
 
 enum class Integrator { generalized_alpha, energy_momentum };
 
-TransientOptions options_of(Integrator integrator, double step, double end) {
-  TransientOptions options = options_to(end, step, generalized_alpha(0.9));
+TransientOptions options_with_integrator(Integrator integrator, double step, double end) {
+  TransientOptions options = transient_options(end, step, generalized_alpha(0.9));
   options.scheme.conserves_energy = integrator == Integrator::energy_momentum;
   return options;
 }
@@ -44,7 +44,7 @@ struct PendulumError {
 PendulumError pendulum_error(Integrator integrator, double step) {
   const Vector2d exact(-.793566195343322, -.608483930443792);
   const GeometricallyExactSystem system(simple_pendulum());
-  const TransientOptions options = options_of(integrator, step, 2);
+  const TransientOptions options = options_with_integrator(integrator, step, 2);
   IntegrationSummary summary;
   const State state = run(system, options, &summary);
   const Vector2d place =
@@ -63,7 +63,7 @@ double energy_drift(Integrator integrator, double step, double end) {
   LargeMotionModel large_motion;
   large_motion.initial_velocities = {{1, 1, 2.0}};
   const GeometricallyExactSystem system(model, large_motion);
-  const TransientOptions options = options_of(integrator, step, end);
+  const TransientOptions options = options_with_integrator(integrator, step, end);
   double first = 0;
   const auto look = [&](const State& s) {
     if (s.t == 0) first = system.energy(s).total();
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(torque_law_turns_a_wheel_by_its_double_integral) {
   const double exact = 3 / 0.25 * (1 - std::cos(2 * 1.5)) / 4;
   for (const Integrator which : {Integrator::generalized_alpha, Integrator::energy_momentum}) {
     const auto error = [&](double step) {
-      const State state = run(system, options_of(which, step, 1.5));
+      const State state = run(system, options_with_integrator(which, step, 1.5));
       return std::abs(node_motion(system, state.q)(0, 2) - exact);
     };
     BOOST_TEST(error(0.01) < 1e-3);
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(force_after_a_shorter_step_is_that_at_its_end) {
   large_motion.load_history = [](double t) { return t; };
   const GeometricallyExactSystem system(model, large_motion);
   for (const Integrator which : {Integrator::generalized_alpha, Integrator::energy_momentum}) {
-    TransientOptions options = options_of(which, 0.1, 0.95);
+    TransientOptions options = options_with_integrator(which, 0.1, 0.95);
     options.sample_times = {0.9, 0.95};
     BOOST_TEST(reactions(system, run(system, options))(0, 0) == 0.95, tolerance(1e-12));
   }
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(force_after_a_shorter_step_is_that_at_its_end) {
 
 BOOST_AUTO_TEST_CASE(too_many_steps_are_refused_with_their_time) {
   const GeometricallyExactSystem system(simple_pendulum());
-  TransientOptions options = options_of(Integrator::generalized_alpha, 1e-3, 1);
+  TransientOptions options = options_with_integrator(Integrator::generalized_alpha, 1e-3, 1);
   options.max_steps = 10;
   State state;
   const IntegrationSummary summary = integrate(system, state, options);

@@ -15,7 +15,7 @@ namespace {
 
 ElastodynamicsOptions options_of(ElbowKind elbow, double angular_speed, double end, double step) {
   ElastodynamicsOptions options;
-  options.design = with_elements(2);
+  options.design = meshed_design(2);
   options.design.elbow.fill({elbow, elbow == ElbowKind::sprung ? 5.0 : 0.0});
   options.path =
       Circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = angular_speed, .phi = 0};

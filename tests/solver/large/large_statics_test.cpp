@@ -49,7 +49,7 @@ double elastica_error(const Elastica& exact, Index elements, double angle = 0) {
 
 /// Returns the equilibrium of the elastica under a force at its tip, approximated by
 /// `estimate_large_statics`.
-StaticSolution estimate_of(const Vector2d& force) {
+StaticSolution estimate_equilibrium(const Vector2d& force) {
   Model model = elastica(8);
   model.loads = {{1, {force.x(), force.y(), 0}}};
   return estimate_large_statics(model);
@@ -59,11 +59,11 @@ StaticSolution estimate_of(const Vector2d& force) {
 
 BOOST_AUTO_TEST_CASE(estimate_of_a_stable_state_uses_two_factorizations) {
   const double critical = kPi * kPi / 4;  // buckling value of P L^2 / EI
-  BOOST_TEST(estimate_of({0, 0.1}).counters.factorizations == 2);
-  BOOST_TEST(estimate_of({-0.9 * critical, 0}).counters.factorizations == 2);
-  BOOST_TEST(estimate_of({-1.1 * critical, 0}).counters.factorizations > 2);
-  BOOST_TEST(estimate_of({-0.9 * critical, 0.1}).counters.factorizations > 2);
-  const StaticSolution found = estimate_of({0, kLarge.load});
+  BOOST_TEST(estimate_equilibrium({0, 0.1}).counters.factorizations == 2);
+  BOOST_TEST(estimate_equilibrium({-0.9 * critical, 0}).counters.factorizations == 2);
+  BOOST_TEST(estimate_equilibrium({-1.1 * critical, 0}).counters.factorizations > 2);
+  BOOST_TEST(estimate_equilibrium({-0.9 * critical, 0.1}).counters.factorizations > 2);
+  const StaticSolution found = estimate_equilibrium({0, kLarge.load});
   BOOST_REQUIRE(found.outcome.solved());
   BOOST_TEST(found.displacement(1, 1) == kLarge.transverse, tolerance(2e-6));
   BOOST_TEST(found.displacement(1, 2) == kLarge.angle, tolerance(2e-6));

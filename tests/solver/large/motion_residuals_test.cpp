@@ -26,16 +26,16 @@ GeometricallyExactSystem pendulum() {
   return GeometricallyExactSystem(simple_pendulum(), large_motion);
 }
 
-TransientOptions options_until_end(double end) {
-  return options_to(end, 0.01, generalized_alpha(0.9));
+TransientOptions options_with_alpha(double end) {
+  return transient_options(end, 0.01, generalized_alpha(0.9));
 }
 
 /// Integrates a motion of the pendulum, and changes its last state.
 /// @returns the outcome of the residual checks of the changed state
-Outcome outcome_of(const std::function<void(State&)>& change) {
+Outcome outcome_after_change(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  BOOST_TEST_REQUIRE(integrate(system, state, options_until_end(0.1)).outcome.solved());
+  BOOST_TEST_REQUIRE(integrate(system, state, options_with_alpha(0.1)).outcome.solved());
   change(state);
   VectorXd force = VectorXd::Zero(system.coordinate_count());
   system.force_residual(state, force);
@@ -50,10 +50,10 @@ Outcome outcome_of(const std::function<void(State&)>& change) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
-  const Outcome found = outcome_of([](State&) {});
+  const Outcome found = outcome_after_change([](State&) {});
   BOOST_TEST(found.solved(), found.reason);
   const auto refused = [](const std::function<void(State&)>& change, const char* residual) {
-    const Outcome outcome = outcome_of(change);
+    const Outcome outcome = outcome_after_change(change);
     BOOST_TEST(!outcome.solved());
     BOOST_TEST(outcome.reason.find(residual) != std::string::npos, outcome.reason);
   };
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
 BOOST_AUTO_TEST_CASE(integration_reports_its_residuals) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  const IntegrationSummary summary = integrate(system, state, options_until_end(1));
+  const IntegrationSummary summary = integrate(system, state, options_with_alpha(1));
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
   BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(energy_balances_with_every_kind_of_work) {
        }}};
   const GeometricallyExactSystem system(model, large_motion);
   State state;
-  TransientOptions options = options_until_end(1);
+  TransientOptions options = options_with_alpha(1);
   options.scheme.conserves_energy = true;
   const IntegrationSummary summary = integrate(system, state, options);
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(wrong_member_forces_are_out_of_balance) {
   BOOST_TEST(residual() > 1e-8);
 }
 
-BOOST_AUTO_TEST_CASE(start_has_the_velocity_and_acceleration_of_its_drive) {
+BOOST_AUTO_TEST_CASE(motion_starts_with_velocity_and_acceleration_of_drive) {
   Model model;
   model.nodes = {{"A", {0, 0}}};
   model.supports = {pin(0)};

@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(negative_stiffness_has_a_negative_pivot) {
   BOOST_TEST(factorization.smallest_pivot() < 0);
 }
 
-BOOST_AUTO_TEST_CASE(factors_are_reused_for_the_same_matrix_only) {
+BOOST_AUTO_TEST_CASE(matrix_factors_are_reused_for_the_same_matrix_only) {
   SparseMatrix A = square(3);
   SparseLdlt ldlt;
   for (const double last : {4.0, 4.0, -4.0, 4.0}) {

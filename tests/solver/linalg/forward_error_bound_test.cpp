@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(estimated_norm_is_a_close_lower_bound) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
+BOOST_AUTO_TEST_CASE(error_bound_follows_condition_of_A_near_a_singularity) {
   // A = [1 1; 1 1 + phi] becomes singular for phi = 0. The exact solution is q = (1 - 1/phi,
   // 1/phi). K = A^T A has a condition number of about 16/phi^2.
   for (int power = 4; power <= 40; power += 4) {
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(stiff_spring_does_not_increase_the_error_bound) {
 
 // R selects the coordinate q[1] as the only result. The norm in the error bound is then a sum,
 // which the program computes exactly instead of estimating the norm.
-BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
+BOOST_AUTO_TEST_CASE(error_bound_is_the_sum_of_rounded_strains_and_forces) {
   FactoredStiffness K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);
   const MatrixXd A = K.A;
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
       boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(bound_doubles_with_directed_rounding) {
+BOOST_AUTO_TEST_CASE(error_bound_doubles_with_directed_rounding) {
   const FactoredStiffness K = factors(MatrixXd{{1, 0}, {-1, 1}});
   const VectorXd q = Eigen::Vector2d(1, 2), f = Eigen::Vector2d(0, 1);
   const AugmentedSystem augmented(K);

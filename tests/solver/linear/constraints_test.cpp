@@ -16,7 +16,7 @@ namespace {
 
 /// Returns the largest |C T|. The free motions T must satisfy all rows of the constraint matrix C,
 /// including redundant rows that were dropped.
-double violation(const System& system) {
+double constraint_violation(const System& system) {
   double largest = 0;
   for (const ConstraintRow& row : system.constraints.rows) {
     Eigen::VectorXd c = Eigen::VectorXd::Zero(system.T.rows());
@@ -43,7 +43,7 @@ Model rigid_triangle() {
 BOOST_AUTO_TEST_CASE(rigid_body_has_three_motions) {
   const System system = assemble(rigid_triangle());
   BOOST_TEST(system.T.cols() == 3);
-  BOOST_TEST(violation(system) < 1e-15);
+  BOOST_TEST(constraint_violation(system) < 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(redundant_constraints_are_dropped) {
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(redundant_constraints_are_dropped) {
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);
   BOOST_TEST(dropped(system) > 0);
-  BOOST_TEST(violation(system) < 1e-14);
+  BOOST_TEST(constraint_violation(system) < 1e-14);
 }
 
 BOOST_AUTO_TEST_CASE(inextensible_parallel_links_leave_one_motion) {
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(inextensible_parallel_links_leave_one_motion) {
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);
   BOOST_TEST(dropped(system) == 1);
-  BOOST_TEST(violation(system) < 1e-13);
+  BOOST_TEST(constraint_violation(system) < 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(unit_of_length_does_not_change_the_pivots) {

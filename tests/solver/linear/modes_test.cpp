@@ -29,7 +29,7 @@ ModalSolution solve(const Model& model, Index count, EigenMethod path = EigenMet
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_error) {
+BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_frequency_error) {
   for (const Index elements : {256, 512, 1024}) {
     const ModalSolution m = solve(cantilever(unit_section(1e7), 1, elements, 0.3), 3);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -20,7 +20,7 @@ Model column(Index elements, double angle) {
   return model;
 }
 
-double first_factor(const Model& model, EigenMethod path = EigenMethod::automatic) {
+double first_buckling_factor(const Model& model, EigenMethod path = EigenMethod::automatic) {
   const BucklingSolution b = solve_buckling(assemble(model), {1, path});
   BOOST_REQUIRE(b.outcome.solved());
   BOOST_REQUIRE(b.load_factor.size() == 1);
@@ -49,9 +49,9 @@ BOOST_AUTO_TEST_CASE(tension_does_not_buckle) {
 
 BOOST_AUTO_TEST_CASE(inextensible_column_buckles_as_a_stiff_one) {
   Model model = column(8, 0.3);
-  const double stiff = first_factor(model);
+  const double stiff = first_buckling_factor(model);
   model.members[0].axially_flexible = false;
-  BOOST_TEST(first_factor(model) == stiff, tolerance(1e-5));
+  BOOST_TEST(first_buckling_factor(model) == stiff, tolerance(1e-5));
 }
 
 BOOST_AUTO_TEST_CASE(modes_beyond_the_buckling_load_are_refused) {

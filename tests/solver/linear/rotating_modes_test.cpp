@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(squared_lag_frequency_falls_by_the_squared_speed) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(both_methods_agree_in_a_rotating_frame) {
+BOOST_AUTO_TEST_CASE(both_eigenvalue_methods_agree_in_a_rotating_frame) {
   Model model = blade(0.5, 16);
   model.nodes.push_back({"C", model.nodes[1].position + Vector2d(0.2, -0.4)});
   model.members.push_back(member("BC", 1, 2, unit_section(1e4), 8));

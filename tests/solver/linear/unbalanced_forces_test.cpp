@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(reported_forces_balance_at_every_node) {
   BOOST_TEST(manipulator().unbalanced() < 1e-14);
 }
 
-BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
+BOOST_AUTO_TEST_CASE(unbalanced_forces_are_relative_to_constraint_forces) {
   // Along the girder of this portal, only the constraint forces of inextensible members act. The
   // program once divided the unbalanced force, which is round-off, by a scale of zero.
   Model model;

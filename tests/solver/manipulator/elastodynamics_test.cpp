@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace {
 
 ManipulatorDesign coarse_design(PlatformKind platform = PlatformKind::rigid) {
-  return with_elements(2, platform);
+  return meshed_design(2, platform);
 }
 
 Circle circle(double angular_speed) {
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(links_lost_to_round_off_of_a_platform_are_refused) {
   BOOST_TEST(s.outcome.reason.find("equation of motion") != std::string::npos, s.outcome.reason);
 }
 
-BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_between_samples) {
+BOOST_AUTO_TEST_CASE(time_steps_balance_at_their_ends_between_samples) {
   ElastodynamicsOptions options = resting(1e-2);
   options.design = coarse_design(PlatformKind::triangles);
   options.time.sample_times = {0.033, 0.067};

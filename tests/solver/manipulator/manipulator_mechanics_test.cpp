@@ -14,7 +14,7 @@ namespace {
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
+ManipulatorDesign design_with_kind(PlatformDesign::Kind kind) {
   ManipulatorDesign design = table_1_design();
   design.platform.kind = kind;
   return design;
@@ -61,7 +61,7 @@ Eigen::VectorXd rigid_motion(const System& system, const Vector3d& field) {
   return q;
 }
 
-System without_supports(const ManipulatorDesign& design) {
+System system_without_supports(const ManipulatorDesign& design) {
   Model model = build_manipulator(design, kPose);
   model.supports.clear();
   return assemble(model);
@@ -69,16 +69,16 @@ System without_supports(const ManipulatorDesign& design) {
 
 /// Returns manipulators with a rigid platform and each kind of platform joint, and with a platform
 /// of triangles with and without pins.
-std::vector<ManipulatorDesign> platforms() {
+std::vector<ManipulatorDesign> designs_with_all_platforms() {
   std::vector<ManipulatorDesign> designs;
   for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,
                                        PlatformJointKind::sprung, PlatformJointKind::eq25_mean}) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    ManipulatorDesign design = design_with_kind(PlatformDesign::Kind::rigid);
     design.platform_joint.fill({kind, 5});
     designs.push_back(design);
   }
   for (const double pin_radius : {0.0, 0.01}) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
+    ManipulatorDesign design = design_with_kind(PlatformDesign::Kind::triangles);
     design.platform.refinements = 2;
     design.platform.pin_radius = pin_radius;
     designs.push_back(design);
@@ -89,7 +89,7 @@ std::vector<ManipulatorDesign> platforms() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
-  for (const ManipulatorDesign& by_density : platforms()) {
+  for (const ManipulatorDesign& by_density : designs_with_all_platforms()) {
     const Posture posture = inverse_kinematics(by_density.geometry, kPose);
     for (const bool printed : {false, true}) {
       ManipulatorDesign design = by_density;
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
         for (const auto& [from, to] : {std::pair{design.geometry.base[i], posture.B[i]},
                                        std::pair{posture.B[i], posture.C[i]}})
           inertia += link_mass * ((from + to).squaredNorm() / 4 + (to - from).squaredNorm() / 12);
-      const System system = without_supports(design);
+      const System system = system_without_supports(design);
       const auto twice_the_energy = [&](const Vector3d& field) {
         const Eigen::VectorXd q = rigid_motion(system, field);
         return q.dot(system.M * q);
@@ -123,8 +123,8 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy) {
-  for (const ManipulatorDesign& design : platforms()) {
-    const System system = without_supports(design);
+  for (const ManipulatorDesign& design : designs_with_all_platforms()) {
+    const System system = system_without_supports(design);
     const double stiffness = Eigen::VectorXd(system.K.diagonal()).maxCoeff();
     for (const Vector3d& field : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
       const Eigen::VectorXd q = rigid_motion(system, field);
@@ -134,10 +134,10 @@ BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(rigid_platform_is_the_limit_of_a_stiff_plate) {
-  const Vector2d rigid = of_P(solve(with_platform(PlatformDesign::Kind::rigid), kPose, kForce));
+  const Vector2d rigid = of_P(solve(design_with_kind(PlatformDesign::Kind::rigid), kPose, kForce));
   double last = 0;
   for (const double factor : {1.0, 10.0, 100.0, 1000.0}) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
+    ManipulatorDesign design = design_with_kind(PlatformDesign::Kind::triangles);
     design.platform.material.E *= factor;
     const double difference = (of_P(solve(design, kPose, kForce)) - rigid).norm() / rigid.norm();
     if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // proportional to 1/factor
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(rigid_platform_is_the_limit_of_a_stiff_plate) {
 BOOST_AUTO_TEST_CASE(platform_turns_by_mean_or_sum_of_equation_25) {
   for (const auto& [kind, share] : {std::pair{PlatformJointKind::eq25_mean, 1.0 / 3},
                                     std::pair{PlatformJointKind::eq25_sum, 1.0}}) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    ManipulatorDesign design = design_with_kind(PlatformDesign::Kind::rigid);
     design.platform_joint.fill({kind});
     const StaticSolution s = solve(design, kPose, {10, 4, 0.3});
     BOOST_TEST_REQUIRE(s.outcome.solved());
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(platform_turns_by_mean_or_sum_of_equation_25) {
 
 BOOST_AUTO_TEST_CASE(clamps_carry_the_holding_torques) {
   for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    ManipulatorDesign design = with_platform(kind);
+    ManipulatorDesign design = design_with_kind(kind);
     design.elbow.fill({ElbowKind::hinged});
     const Posture posture = inverse_kinematics(design.geometry, kPose);
     const HoldingTorques hold = holding_torques(jacobians(design.geometry, kPose, posture), kForce);
@@ -175,10 +175,10 @@ BOOST_AUTO_TEST_CASE(clamps_carry_the_holding_torques) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
+BOOST_AUTO_TEST_CASE(pose_with_threefold_symmetry_repeats_frequencies) {
   for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles})
     for (const double phi : {0.0, 0.3}) {
-      const ModalSolution m = modes(with_platform(kind), centered_pose(phi), 9);
+      const ModalSolution m = modes(design_with_kind(kind), centered_pose(phi), 9);
       BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
       // Two of every three modes have equal frequencies, because displacements along x and y are
       // equivalent in the threefold symmetry.

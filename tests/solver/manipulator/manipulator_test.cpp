@@ -96,7 +96,7 @@ ManipulatorDesign uneven_design() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(nodes_are_those_of_the_kinematics) {
+BOOST_AUTO_TEST_CASE(node_positions_are_those_of_the_kinematics) {
   const ManipulatorDesign design = uneven_design();
   const Pose pose{0.27, 0.14, 0.2};
   const Model model = build_manipulator(design, pose);
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(printed_platform_inertia_is_about_P) {
   BOOST_TEST(refusal(design).find("inertia about P must be at least") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(refinement_keeps_mass_and_inertia) {
+BOOST_AUTO_TEST_CASE(mesh_refinement_keeps_mass_and_inertia) {
   for (ManipulatorDesign design : {table_1_design(), uneven_design()}) {
     const Bulk coarse = platform_bulk(build_manipulator(design, centered_pose()));
     for (int level = 1; level <= 4; ++level) {

@@ -32,7 +32,7 @@ Path circle_with_rotation() {
 }
 
 std::vector<ManipulatorDesign> designs() {
-  std::vector<ManipulatorDesign> all(4, with_elements(2, PlatformKind::triangles));
+  std::vector<ManipulatorDesign> all(4, meshed_design(2, PlatformKind::triangles));
   for (ManipulatorDesign& design : all)
     for (LinkDesign& link : design.distal) link.elements = 3;
   all[1].platform.kind = PlatformKind::rigid;
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(nonzeros_of_inextensible_links_grow_linearly) {
   // The number of nonzeros of the stiffness matrix then increased quadratically.
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
-    ManipulatorDesign design = with_elements(elements);
+    ManipulatorDesign design = meshed_design(elements);
     for (auto* links : {&design.proximal, &design.distal})
       for (LinkDesign& link : *links) link.axially_flexible = false;
     const Walk walk(design, circle_with_rotation(), 0.1, false);

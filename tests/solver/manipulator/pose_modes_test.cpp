@@ -61,7 +61,7 @@ void check(const char* what, const ManipulatorDesign& design, const std::vector<
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(roundoff_estimate_equals_that_of_single_poses) {
-  const ManipulatorDesign design = with_elements(16);
+  const ManipulatorDesign design = meshed_design(16);
   const std::vector<Pose> poses = circle(5, 0.01);
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 3});
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -76,14 +76,14 @@ BOOST_AUTO_TEST_CASE(roundoff_estimate_equals_that_of_single_poses) {
 
 BOOST_AUTO_TEST_CASE(poses_of_a_circle_have_their_frequencies) {
   for (const Index elements : {1, 2, 4})
-    check("rigid", with_elements(elements), circle(70, 0.01), 3);
-  check("sixteen elements", with_elements(16), circle(5, 0.01), 8);
-  check("triangles", with_elements(4, PlatformKind::triangles), circle(20, 0.03, 0.2), 6);
+    check("rigid", meshed_design(elements), circle(70, 0.01), 3);
+  check("sixteen elements", meshed_design(16), circle(5, 0.01), 8);
+  check("triangles", meshed_design(4, PlatformKind::triangles), circle(20, 0.03, 0.2), 6);
 }
 
 BOOST_AUTO_TEST_CASE(joints_masses_and_theories_are_condensed_exactly) {
   const std::vector<Pose> poses = circle(6, 0.02, 0.1);
-  ManipulatorDesign design = with_elements(3);
+  ManipulatorDesign design = meshed_design(3);
   design.elbow.fill({ElbowKind::sprung, 40});
   design.active.fill({ActiveKind::sprung, 60});
   design.platform_joint.fill({PlatformJointKind::sprung, 5});
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(joints_masses_and_theories_are_condensed_exactly) {
 }
 
 BOOST_AUTO_TEST_CASE(pose_modes_respect_inactive_effects) {
-  const ManipulatorDesign design = with_elements(4);
+  const ManipulatorDesign design = meshed_design(4);
   const Effects all = Effects::all();
   check("inextensible", design, circle(6, 0.02), 3, 0, all.without(Effect::axial_flexibility));
   check("massless links", design, circle(3, 0.02), 3, 3, all.without(Effect::link_mass));
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(pose_modes_respect_inactive_effects) {
 BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_multiplicity) {
   // At the center, the manipulator has a threefold symmetry with pairs of equal frequencies.
   const std::vector<Pose> poses(3, centered_pose());
-  const ManipulatorDesign design = with_elements(4);
+  const ManipulatorDesign design = meshed_design(4);
   for (const Index count : {1, 2, 3, 4, 5, 6}) check("repeated", design, poses, count);
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 6});
   Index pairs = 0;
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_multiplicity) {
 }
 
 BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
-  ManipulatorDesign design = with_elements(2);
+  ManipulatorDesign design = meshed_design(2);
   design.geometry = uneven_geometry();
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> x(0.2, 0.4), phi(-1.2, 1.2);
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
   BOOST_TEST(worst_difference(design, poses, modes) < 2);
   BOOST_TEST(modes.by_itself < 10);
   // Hinged elbows allow a parallel singularity, where the stiffness of a mode vanishes.
-  ManipulatorDesign hinged = with_elements(1);
+  ManipulatorDesign hinged = meshed_design(1);
   hinged.elbow.fill({ElbowKind::hinged});
   hinged.geometry.base = equilateral_base(0.5);
   const std::vector<Pose> near = {{0.25, 0.144, 0.3}, {0.25, 0.144, 1e-9}, {0.25, 0.144, 0.3}};
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
 BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
   // Arm 3 fixes the platform, so that arms 1 and 2 vibrate independently. At first, arm 1 has the
   // six lowest modes. When arm 2 is stretched, its heavy distal link has a lower frequency.
-  ManipulatorDesign design = with_elements(4);
+  ManipulatorDesign design = meshed_design(4);
   for (const std::size_t arm : {0, 1}) design.elbow[arm] = {ElbowKind::hinged};
   design.platform_joint[2] = {PlatformJointKind::welded};
   for (auto* links : {&design.proximal, &design.distal}) (*links)[2].material.E *= 1e16;
@@ -165,25 +165,25 @@ BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
 }
 
 BOOST_AUTO_TEST_CASE(poses_with_free_actuators_are_solved_one_by_one) {
-  ManipulatorDesign design = with_elements(2);
+  ManipulatorDesign design = meshed_design(2);
   design.active.fill({ActiveKind::free});
   check("free", design, circle(3, 0.01), 5, 3);
 }
 
-BOOST_AUTO_TEST_CASE(pose_out_of_reach_stops_no_other) {
+BOOST_AUTO_TEST_CASE(pose_out_of_reach_stops_no_other_pose) {
   const std::vector<Pose> poses = {{0.25, 0.144, 0}, {5, 5, 0}, {0.26, 0.144, 0}};
-  const PoseModes modes = solve_pose_modes(with_elements(1), poses, {.count = 2});
+  const PoseModes modes = solve_pose_modes(meshed_design(1), poses, {.count = 2});
   BOOST_TEST(modes.outcome[0].solved());
   BOOST_TEST((modes.outcome[1].status == Status::singular));
   BOOST_TEST(std::isnan(modes.frequency(0, 1)));
   BOOST_TEST(modes.outcome[2].solved());
-  const PoseModes none = solve_pose_modes(with_elements(1), {{5, 5, 0}}, {.count = 2});
+  const PoseModes none = solve_pose_modes(meshed_design(1), {{5, 5, 0}}, {.count = 2});
   BOOST_TEST(!none.outcome[0].solved());
 }
 
 BOOST_AUTO_TEST_CASE(results_are_bit_identical_for_any_thread_count) {
   const std::vector<Pose> poses = circle(300, 0.01);
-  const ManipulatorDesign design = with_elements(2);
+  const ManipulatorDesign design = meshed_design(2);
   const PoseModes one = solve_pose_modes(design, poses, {.count = 3, .threads = 1});
   const PoseModes four = solve_pose_modes(design, poses, {.count = 3, .threads = 4});
   BOOST_TEST((one.frequency.array() == four.frequency.array()).all());
@@ -191,10 +191,10 @@ BOOST_AUTO_TEST_CASE(results_are_bit_identical_for_any_thread_count) {
   BOOST_TEST(one.counters.solves == four.counters.solves);
 }
 
-BOOST_AUTO_TEST_CASE(count_below_a_shift_is_that_of_the_full_model) {
+BOOST_AUTO_TEST_CASE(mode_count_below_a_shift_is_that_of_the_full_model) {
   const Pose at{0.27, 0.13, 0.1};
   for (const Index elements : {1, 3, 8}) {
-    const ManipulatorDesign design = with_elements(elements);
+    const ManipulatorDesign design = meshed_design(elements);
     const Model model = build_manipulator(design, at);
     const Pose elsewhere = centered_pose();
     MovingPencil here(build_manipulator(design, elsewhere), design.geometry, elsewhere);
@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(count_below_a_shift_is_that_of_the_full_model) {
 }
 
 BOOST_AUTO_TEST_CASE(number_of_solves_stays_small) {  // counts are reproducible, unlike times
-  const PoseModes modes = solve_pose_modes(with_elements(4), circle(640, 0.01), {.count = 3});
+  const PoseModes modes = solve_pose_modes(meshed_design(4), circle(640, 0.01), {.count = 3});
   BOOST_TEST(modes.by_itself == 0);
   BOOST_TEST(modes.counters.solves < 640 * 6 * 6);  // six vectors, six inverse iterations per pose
   BOOST_TEST(modes.coupling < 1e-12);

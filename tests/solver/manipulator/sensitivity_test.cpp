@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
   std::vector<DesignParameter> parameters = {all(Kind::length)};
   for (std::size_t limb = 0; limb < 3; ++limb) {
-    parameters.push_back(one_length(limb, true));
-    parameters.push_back(one_length(limb, false));
+    parameters.push_back(length_parameter(limb, true));
+    parameters.push_back(length_parameter(limb, false));
   }
   const FrequencySensitivity s =
       frequency_sensitivity(coarse_design(), {0.27, 0.13, 0.05}, parameters, 6);
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
   // basis of the two mode shapes.
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;
-    for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
+    for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(length_parameter(limb, true));
     parameters.push_back(all(Kind::length));
     const FrequencySensitivity s =
         frequency_sensitivity(coarse_design(), centered_pose(phi), parameters, 6);
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
 
 BOOST_AUTO_TEST_CASE(incomplete_frequency_set_keeps_lowest_derivative) {
   const ManipulatorDesign design = coarse_design();
-  const DesignParameter parameter = one_length(0, true);
+  const DesignParameter parameter = length_parameter(0, true);
   const FrequencySensitivity all_six =
       frequency_sensitivity(design, centered_pose(), {parameter}, 6);
   for (const FrequencySet& set : all_six.sets) {
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(modes_lost_to_round_off_do_not_crash) {
   BOOST_TEST(first.outcome.solved() == std::isfinite(first.frequency));
 }
 
-BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
+BOOST_AUTO_TEST_CASE(sensitivity_map_covers_reach_and_equals_single_poses) {
   const ManipulatorDesign design = coarse_design(1);
   const PoseGrid grid = reachable_grid(design.geometry, 0.1, 15);
   const SensitivityMap map = map_first_frequency(design, all(Kind::length), grid);

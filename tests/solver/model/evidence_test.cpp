@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(result_without_residuals_is_not_solved) {
   BOOST_TEST(!outcome_by_evidence({}, other, {Residual::equilibrium}).solved());
 }
 
-BOOST_AUTO_TEST_CASE(largest_residual_of_a_kind_decides) {
+BOOST_AUTO_TEST_CASE(largest_residual_of_a_kind_decides_the_status) {
   Evidence evidence;
   evidence.add(Residual::equilibrium, 1e-16);
   BOOST_TEST(outcome_by_evidence({}, evidence).solved());
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(residual_that_is_not_a_number_is_infinite) {
   BOOST_TEST(!outcome_by_evidence({}, sum).solved());
 }
 
-BOOST_AUTO_TEST_CASE(failure_keeps_its_status) {
+BOOST_AUTO_TEST_CASE(failed_solution_keeps_its_status) {
   const Outcome singular{Status::singular, "free motion"};
   BOOST_TEST((outcome_by_evidence(singular, {}).status == Status::singular));
 }

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(response_at_zero_frequency_is_statics) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(superposition_equals_the_direct_solution) {
+BOOST_AUTO_TEST_CASE(modal_superposition_equals_the_direct_solution) {
   // With Rayleigh damping, superposition of all modes equals the direct solution.
   const System system = assemble(frame());
   const HarmonicSolver direct(system, {{1.0, 1e-4}, {}});
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
 }
 
 BOOST_AUTO_TEST_CASE(damped_thin_links_balance_in_every_row) {
-  Model model = build_manipulator(with_elements(8), centered_pose());
+  Model model = build_manipulator(meshed_design(8), centered_pose());
   model.loads.push_back({model.find_node("P"), {10, 0, 0}});
   const System system = assemble(model);
   const HarmonicSolver response(system, {{1, 1e-5}, {}});

@@ -30,7 +30,7 @@ EquationOfMotion oscillator() {
 }
 
 TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme = {}) {
-  TransientOptions options = options_to(2, 0.02, scheme);
+  TransientOptions options = transient_options(2, 0.02, scheme);
   options.v0 = VectorXd::Constant(1, 0.3);
   return solve_transient(equation, options);
 }

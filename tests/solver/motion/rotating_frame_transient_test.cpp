@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-EquationOfMotion equation_of(const System& system, const PrescribedRotation& axes) {
+EquationOfMotion equation_in_rotating_frame(const System& system, const PrescribedRotation& axes) {
   EquationOfMotion equation;
   equation.M = system.M;
   equation.K = system.K;
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(constant_speed_has_the_steady_state_of_the_frame) {
   Model model = cantilever(unit_section(), 1, 8);
   model.masses.push_back({1, 0.1, 0, {0, 0.05}});
   const System system = assemble(model);
-  EquationOfMotion equation = equation_of(system, steady(3));
+  EquationOfMotion equation = equation_in_rotating_frame(system, steady(3));
   equation.update(0, equation.M, equation.C, equation.K);
   VectorXd f = VectorXd::Zero(system.K.rows());
   equation.load(0, f);

@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_CASE(trapezoidal_rule_has_spectral_radius_1) {
     BOOST_TEST(spectral_radius(average_acceleration(), phase) == 1, tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(stability_limits_are_those_of_theory) {
+BOOST_AUTO_TEST_CASE(stability_limits_of_time_steps_are_those_of_theory) {
   BOOST_TEST(std::isinf(stability_limit(average_acceleration())));
   BOOST_TEST(std::isinf(stability_limit(hht_alpha(-0.2))));
   BOOST_TEST(std::isinf(stability_limit(generalized_alpha(0.7))));

@@ -53,7 +53,7 @@ void check_stop_reason(const TransientSummary& summary, const std::string& reaso
 }  // namespace
 
 // Manufactured solution q = (sin 3t, cos 2t) with time-dependent matrices that have skew parts.
-BOOST_AUTO_TEST_CASE(schemes_converge_with_their_order) {
+BOOST_AUTO_TEST_CASE(time_schemes_converge_with_their_order) {
   const auto M = [](double t) -> Eigen::Matrix2d {
     return (Eigen::Matrix2d() << 2 + std::sin(t), 0.3, 0.3, 1 + 0.5 * std::cos(t)).finished();
   };
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
   const PiecewiseLinearLoad load = load_with_jumps(4);
   load.apply_to(equation);
   const ModalBasis basis = all_modes(equation.M, equation.K);
-  TransientOptions options = options_to(1, 0.1);
+  TransientOptions options = transient_options(1, 0.1);
   options.sample_times = {1};
   const ModalResponse exact = superpose(basis, decay_rates(damping, basis.omega), equation.M, load,
                                         {0, 1}, VectorXd(), VectorXd());
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
 BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
   EquationOfMotion equation = chain(2, 1, 100);
   step_load(Eigen::Vector2d(0, 1)).apply_to(equation);
-  TransientOptions options = options_to(1, 0.1);
+  TransientOptions options = transient_options(1, 0.1);
   options.adaptive = ErrorControl{.relative = 1e-12, .finest_level = 3};
   const TransientHistory h = solve_transient(equation, options);
   check_stop_reason(h.summary, "step 1 at time 0 s of size 0.0125 s");
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
 BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
   const EquationOfMotion equation = chain(8, 1, 100);
   const double fastest = all_modes(equation.M, equation.K).omega.maxCoeff();
-  TransientOptions options = options_to(1, 0.95 * 2 / fastest, central_difference());
+  TransientOptions options = transient_options(1, 0.95 * 2 / fastest, central_difference());
   options.v0 = VectorXd::Ones(8);
   BOOST_TEST(solve_transient(equation, options).summary.outcome.solved());
   options.step = 1.05 * 2 / fastest;
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
 BOOST_AUTO_TEST_CASE(load_that_is_not_a_number_ends_the_motion) {
   EquationOfMotion equation = chain(2, 1, 100);
   equation.load = [](double t, VectorXd& f) { f.setConstant(t > 0.52 ? std::nan("") : 1.0); };
-  TransientOptions options = options_to(1, 0.1);
+  TransientOptions options = transient_options(1, 0.1);
   const TransientHistory h = solve_transient(equation, options);
   check_stop_reason(h.summary, "step 6 at time 0.5 s");
   BOOST_TEST(h.time.size() == 6U);
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_ignores_a_later_jump) {
   const double jump = 0.003;
   equation.load = [=](double t, VectorXd& f) { f.setConstant(t < jump ? 2 * t : 50.0); };
   equation.breakpoints = {jump};
-  TransientOptions options = options_to(0.02, 0.01);
+  TransientOptions options = transient_options(0.02, 0.01);
   options.quasi_static_start = true;
   const TransientHistory h = solve_transient(equation, options);
   BOOST_TEST_REQUIRE(h.summary.outcome.solved());
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
     f.setZero();
     f[2] = 10 + std::sin(slow * t);
   };
-  TransientOptions options = options_to(0.1, 0.01);
+  TransientOptions options = transient_options(0.1, 0.01);
   options.quasi_static_start = true;
   const TransientHistory h = solve_transient(equation, options);
   BOOST_REQUIRE(h.summary.outcome.solved());
@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
       [](auto& e, auto&) { e.update = [](double, auto&, auto&, auto&) {}; }};
   for (const Change& change : changes) {
     EquationOfMotion equation = chain(2, 1, 1);
-    TransientOptions options = options_to(1, 0.1);
+    TransientOptions options = transient_options(1, 0.1);
     change(equation, options);
     BOOST_CHECK_THROW(static_cast<void>(solve_transient(equation, options)), ModelError);
   }
@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
 BOOST_AUTO_TEST_CASE(decayed_vibration_ends_in_zeros) {
   EquationOfMotion equation = chain(4, 1, 200);
   // The amplitude decreases by a factor of 0.5 per step and underflows to 0 after 1075 steps.
-  TransientOptions options = options_to(40000, 1, generalized_alpha(0.5));
+  TransientOptions options = transient_options(40000, 1, generalized_alpha(0.5));
   options.sample_times = {0, 40000};
   options.v0 = VectorXd::Ones(4);
   const TransientHistory found = solve_transient(equation, options);

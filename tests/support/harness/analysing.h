@@ -13,7 +13,7 @@ using namespace references;
 using namespace solver;
 using namespace harness;
 
-inline AnalysisResult result_of(const Json& json) {
+inline AnalysisResult analyze_json(const Json& json) {
   const References references;
   return analyze(document_of(json), references, {});
 }

@@ -24,7 +24,7 @@ struct ExportTwin {
 
 /// Returns all models of a case that can be exported: the variant itself, and the variant with each
 /// parameter value of its sweeps.
-inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
+inline std::vector<ExportChoice> exportable_choices(const Case& given, const std::string& variant) {
   std::vector<ExportChoice> choices = {{variant}};
   const Document document = patched(given, variant);
   if (const auto sweeps = JsonView(document).find("sweeps"))
@@ -36,7 +36,7 @@ inline std::vector<ExportChoice> choices_of(const Case& given, const std::string
 
 /// Returns true for estimates of round-off and for quantities that depend on round-off. The time of
 /// a peak depends on round-off if several samples are almost equal.
-inline bool is_roundoff(const std::string& name) {
+inline bool is_roundoff_quantity(const std::string& name) {
   const auto has = [&](const char* word) { return contains(name, word); };
   return has("roundoff") || has("_residual") || has("energy_drift") || has("newton_") ||
          has("estimated_correct_digits") || has("peak_time_s");
@@ -55,7 +55,7 @@ inline bool has_no_exported_counterpart(const std::string& name, const Json& mod
 /// Returns the scale to which differences of a quantity are relative: the largest magnitude among
 /// the quantities with the same name before the colon. The x and y components of a vector have a
 /// common scale.
-inline double largest_magnitude_of_name(const Quantities& all, const std::string& name) {
+inline double scale_of_quantity(const Quantities& all, const std::string& name) {
   const auto head = [](const std::string& text) {
     const std::string quantity = text.substr(0, text.find(':'));
     const std::size_t axis = std::min(quantity.find("_x_"), quantity.find("_y_"));
@@ -72,7 +72,7 @@ inline double largest_magnitude_of_name(const Quantities& all, const std::string
 
 inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) {
   for (const auto& [name, quantity] : own) {
-    if (is_roundoff(name) || has_no_exported_counterpart(name, model)) continue;
+    if (is_roundoff_quantity(name) || has_no_exported_counterpart(name, model)) continue;
     if (name.rfind("effect_", 0) == 0) continue;  // the exported case has the selected effects
     const auto found = twin.exported.quantities.find(name);
     const bool there = found != twin.exported.quantities.end() &&
@@ -81,7 +81,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
     for (std::size_t i = 0; there && i < quantity.values.size(); ++i) {
       const double a = quantity.values[i], b = found->second.values[i];
       if (a == b || (std::isnan(a) && std::isnan(b))) continue;
-      difference = std::max(difference, std::abs(a - b) / largest_magnitude_of_name(own, name));
+      difference = std::max(difference, std::abs(a - b) / scale_of_quantity(own, name));
     }
     if (difference <= twin.difference) continue;
     twin.difference = difference;
@@ -90,7 +90,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
 }
 
 /// Exports a case to a file, and computes the case and the exported case.
-inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
+inline ExportTwin export_and_compute_both(const Case& given, const ExportChoice& choice) {
   ExportTwin twin{given.id() + ":" + choice.variant};
   if (choice.level) twin.name += " " + choice.sweep + " " + std::to_string(*choice.level);
   try {
@@ -102,7 +102,7 @@ inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
   }
   const Folder folder;
   const References references;
-  const Document document = chosen_document(given, choice);
+  const Document document = case_with_chosen_patches(given, choice);
   const AnalysisResult own = analyze(document, references, {false});
   const Case written = load_case(folder.write("exported.json", twin.json.dump()));
   twin.exported = analyze(patched(written, "base"), references, {false});

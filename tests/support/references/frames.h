@@ -32,8 +32,8 @@ inline std::vector<double> run(const char* program, const char* arguments) {
   return derive_values(program, Json::parse(arguments));
 }
 
-inline void check_equal(const std::vector<double>& a, const std::vector<double>& b,
-                        double relative) {
+inline void check_equality(const std::vector<double>& a, const std::vector<double>& b,
+                           double relative) {
   BOOST_TEST_REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     BOOST_TEST(a[i] == b[i], boost::test_tools::tolerance(relative));

@@ -75,7 +75,7 @@ Visit visit(const fs::path& page) {
   return {read_text_file(document), read_text_file(console)};
 }
 
-int measured(const Visit& visit, const std::string& name) {
+int measured_number(const Visit& visit, const std::string& name) {
   const std::string start = "data-" + name + "=\"";
   const std::size_t at = visit.document.find(start);
   return at == std::string::npos ? -1 : std::atoi(visit.document.c_str() + at + start.size());

@@ -22,6 +22,6 @@ struct Visit {
 [[nodiscard]] Visit visit_in_frame(const std::filesystem::path& page, int width);
 
 /// Returns the number in data-<name>, or -1 if it is missing.
-[[nodiscard]] int measured(const Visit& visit, const std::string& name);
+[[nodiscard]] int measured_number(const Visit& visit, const std::string& name);
 
 }  // namespace trammel::testing

@@ -105,7 +105,7 @@ results::Results sample_results() {
   return sample;
 }
 
-results::Results sample_of(const std::string& case_id) {
+results::Results sample_results_of_case(const std::string& case_id) {
   results::Results sample = sample_results();
   std::erase_if(sample.runs, [&](const results::Run& run) { return run.case_id != case_id; });
   return sample;

@@ -39,7 +39,7 @@ class Workspace {
 [[nodiscard]] results::Results sample_results();
 
 /// Returns the sample results with the runs of one case only.
-[[nodiscard]] results::Results sample_of(const std::string& case_id);
+[[nodiscard]] results::Results sample_results_of_case(const std::string& case_id);
 
 /// Returns the folder of a report of the sample results, which is written once for all tests of
 /// this program.

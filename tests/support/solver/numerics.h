@@ -27,8 +27,8 @@ inline double observed_order(double coarse, double fine) {
   return std::log2(coarse / fine);
 }
 
-inline TransientOptions options_to(double end, double step,
-                                   const TimeScheme& scheme = average_acceleration()) {
+inline TransientOptions transient_options(double end, double step,
+                                          const TimeScheme& scheme = average_acceleration()) {
   TransientOptions options;
   options.end = end;
   options.step = step;

@@ -15,14 +15,14 @@ inline DesignParameter all(Kind kind) {
   return {.kind = kind, .platform = kind != Kind::length};
 }
 
-inline DesignParameter one_length(std::size_t limb, bool is_proximal) {
+inline DesignParameter length_parameter(std::size_t limb, bool is_proximal) {
   DesignParameter p{.kind = Kind::length, .proximal = {}, .distal = {}};
   (is_proximal ? p.proximal : p.distal)[limb] = true;
   return p;
 }
 
 inline ManipulatorDesign coarse_design(Index elements = 2) {
-  return with_elements(elements, PlatformKind::triangles);
+  return meshed_design(elements, PlatformKind::triangles);
 }
 
 /// Returns a pose well inside the reach, where no limb is nearly straight or folded.

@@ -56,7 +56,7 @@ inline ManipulatorDesign table_1_design() {
 }
 
 /// Returns the design of Table 1 with this number of elements in each link.
-inline ManipulatorDesign with_elements(Index elements,
+inline ManipulatorDesign meshed_design(Index elements,
                                        PlatformKind platform = PlatformKind::rigid) {
   ManipulatorDesign design = table_1_design();
   design.platform.kind = platform;
