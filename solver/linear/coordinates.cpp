@@ -1,6 +1,6 @@
 #include "solver/linear/coordinates.h"
 
-#include "solver/elements/frame_element.h"
+#include "solver/linear/element_operators.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver {
@@ -106,6 +106,7 @@ class Discretiser {
       const Index rotation2 = last ? end_rotation(member, 1, bends) : of(element.nodes[1])[2];
       element.coordinates = {of(element.nodes[0])[0], of(element.nodes[0])[1], rotation1,
                              of(element.nodes[1])[0], of(element.nodes[1])[1], rotation2};
+      element.mass = world_mass_matrix(element, member);
       out_.mesh.frame.push_back(element);
       if (last) out_.coordinates.member_end.push_back({first_rotation, rotation2});
     }

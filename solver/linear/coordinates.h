@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "solver/elements/frame_element.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver {
@@ -22,6 +23,9 @@ struct FrameElement {
   /// Unit vector along the member. All elements of a member have the same direction and are exactly
   /// collinear.
   Vector2d direction = Vector2d::UnitX();
+  /// Mass matrix for `coordinates`, in world axes [kg, kg m, kg m^2]. It belongs to `section`; use
+  /// `world_mass_matrix` for another section.
+  Matrix6d mass = Matrix6d::Zero();
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 
@@ -74,8 +78,8 @@ struct Discretisation {
   Coordinates coordinates;
 };
 
-/// Divides the members of a model into elements and numbers the unconstrained coordinates. The
-/// model must pass `validate`.
+/// Divides the members of a model into elements with their mass matrices, and numbers the
+/// unconstrained coordinates. The model must pass `validate`.
 [[nodiscard]] Discretisation discretize(const Model& model);
 
 }  // namespace trammel::solver

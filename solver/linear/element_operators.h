@@ -171,11 +171,9 @@ template <Real T>
 /// matrix m is n x n, in world axes.
 template <class Visit>
 void for_each_mass_matrix(const System& system, Visit&& visit) {
-  for (const FrameElement& e : system.mesh.frame) {
-    if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-    visit(e.coordinates, world_mass_matrix(e, member));
-  }
+  for (const FrameElement& e : system.mesh.frame)
+    if (e.section.mass_per_length != 0 || e.section.inertia_per_length != 0)
+      visit(e.coordinates, e.mass);
   for_each_plate_mass(system, visit);
   for (const PointMass& point_mass : system.model.masses)
     visit(system.coordinates.node[to_size(point_mass.node)],

@@ -291,8 +291,7 @@ ElementForces end_forces(const System& system, const ElasticState& state) {
                                           state.prestress->axial_variation[index], u);
     const Matrix6d R = frame_transformation_matrix(e.direction);
     if (state.acceleration.size() > 0)
-      force +=
-          R * (world_mass_matrix(e, member) * detail::gather(e.coordinates, state.acceleration));
+      force += R * (e.mass * detail::gather(e.coordinates, state.acceleration));
     force -= R * element_load(e, acting_line_load(system, state, e));
     forces.col(index) = force;
   }
