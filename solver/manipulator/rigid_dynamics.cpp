@@ -125,7 +125,8 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
   for (Index body = 0; body < 7; ++body) {
     const Eigen::Matrix<Dual, 3, 9> J = body_place(m, q, body).J;
     const Eigen::Vector3<Dual> inertia = body_inertia(m, body).cast<Dual>();
-    M += J.transpose() * inertia.asDiagonal() * J;
+    const Eigen::Matrix<Dual, 9, 3> momentum = J.transpose() * inertia.asDiagonal();
+    M += momentum.lazyProduct(J);
   }
   return M;
 }
@@ -204,8 +205,11 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
   const Eigen::Matrix<Dual, 9, 3> W = actuator_to_joint_jacobian(m, q);
   terms.W = values_of(W);
   terms.W_dot = rates_of(W);
-  terms.Mh = terms.W.transpose() * terms.M * terms.W;
-  terms.Ch = terms.W.transpose() * (terms.M * terms.W_dot + terms.C * terms.W);
+  // Small matrices are multiplied without Eigen's blocked kernel, which takes long to compile.
+  const Matrix93d inertia = terms.M.lazyProduct(terms.W);
+  const Matrix93d coriolis = terms.M.lazyProduct(terms.W_dot) + terms.C.lazyProduct(terms.W);
+  terms.Mh = terms.W.transpose().lazyProduct(inertia);
+  terms.Ch = terms.W.transpose().lazyProduct(coriolis);
   terms.Nh = terms.W.transpose() * terms.N;
   return terms;
 }
@@ -213,7 +217,8 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
 PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms& terms) {
   const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
   const Eigen::Matrix<Dual, 9, 3> W = actuator_to_joint_jacobian<Dual>(m, q);
-  const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix(m, q) * W;
+  const Eigen::Matrix<Dual, 9, 3> inertia = mass_matrix(m, q).lazyProduct(W);
+  const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose().lazyProduct(inertia);
   const Matrix3d Mh_dot = rates_of(Mh);
   const Matrix3d S = Mh_dot - 2 * terms.Ch;
   const double scale = Mh_dot.norm() + 2 * terms.Ch.norm();
