@@ -38,8 +38,8 @@ struct RelativeTime {
                                       const std::vector<double>& baseline, std::size_t first = 0,
                                       std::size_t stride = 1);
 
-/// Runs every function once to warm up, then all of them once in each repeat, in a new random
-/// order. Disturbances of the machine therefore affect the times of all functions alike.
+/// Runs every function once or twice to warm up. Then measures all of them in each repeat, in a new
+/// random order. Disturbances of the machine therefore affect the times of all functions alike.
 /// @param after_repeat  called after each repeat
 [[nodiscard]] std::vector<Timing> measure_interleaved(
     const std::vector<std::function<void()>>& works, const TimingOptions& options,

@@ -47,7 +47,7 @@ void add_run(Rows& rows, const EffectRun& run, const EffectRun& full) {
             run.counters.element_evaluations, run.counters.factorizations, run.counters.solves});
 }
 
-Rows contribution_rows(const EffectStudy& study) {
+Rows rows_of_effect_contributions(const EffectStudy& study) {
   Rows rows(kRunColumns);
   add_run(rows, study.full, study.full);
   for (const EffectRun& run : study.without_one) add_run(rows, run, study.full);
@@ -88,7 +88,7 @@ results::EffectScene make_scene(const std::string& id, const std::string& analys
 Json study_to_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
   Json json = results::to_json(make_scene(id, analysis, study));
   json["effects"] = results::to_json(study.choice.rows);
-  json["runs"] = contribution_rows(study).json();
+  json["runs"] = rows_of_effect_contributions(study).json();
   return json;
 }
 
@@ -100,7 +100,7 @@ bool holds(const EffectStudy& study) {
 
 void print_effect_study(const EffectStudy& study) {
   std::cout << "\nChanges measured against the model with all effects\n";
-  contribution_rows(study).print(std::cout, "  ");
+  rows_of_effect_contributions(study).print(std::cout, "  ");
   std::cout << "  time, work: relative to the full model; work: counted factorizations, solves and "
                "element matrices, weighted by unknowns\n\nChosen    "
             << effect_names(study.choice.chosen) << "\nEffects   "
@@ -185,13 +185,12 @@ int print_effect_selection(const EffectCase& scene, const CommandOptions& option
 
 /// Returns the effects selected in a case, measured or read from the store; empty if the model with
 /// all effects has no solution.
-EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
+EffectScenes case_scenes(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
-    const EffectStudy study = study_effects(given.document, {.repeats = 3});
-    EffectScenes scenes;
-    if (study.full.outcome.solved())
-      scenes.push_back(scene_of(given.id, analysis_kind(given.document), study));
-    return scenes;
+    const EffectStudy study =
+        study_effects(given.document, {.repeats = 3, .measures_contributions = false});
+    if (!study.full.outcome.solved()) return EffectScenes{};
+    return EffectScenes{make_scene(given.id, analysis_kind(given.document), study)};
   };
   return cached_effect_study(given.document, measure, store, resume);
 }
@@ -212,8 +211,8 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     progress->show(i + 1, cases.size());
     if (!study.full.outcome.solved()) continue;
     const std::string analysis = analysis_kind(cases[i].document);
-    json.push_back(study_json(cases[i].id, analysis, study));
-    scenes.push_back(scene_of(cases[i].id, analysis, study));
+    json.push_back(study_to_json(cases[i].id, analysis, study));
+    scenes.push_back(make_scene(cases[i].id, analysis, study));
     all_hold = all_hold && holds(study);
   }
   progress.reset();

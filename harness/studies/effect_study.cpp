@@ -45,12 +45,12 @@ class Study {
     study_.chosen = compute(study_.choice.chosen);
     compare_meshes();
     for (const auto& [from, runs] :
-         {std::pair(&study_.full, &study_.without_one), {&study_.chosen, &study_.without_chosen}}) {
-      for (const Effect effect : removable(from->effects))
-        runs->push_back(compute(study_.scope.with_implied_effects(
-                                    study_.scope.remove_with_dependents(from->effects, effect)),
-                                from->effects));
-    }
+         {std::pair(&study_.full, &study_.without_one), {&study_.chosen, &study_.without_chosen}})
+      if (options_.measures_contributions || runs != &study_.without_one)
+        for (const Effect effect : removable(from->effects))
+          runs->push_back(compute(study_.scope.with_implied_effects(
+                                      study_.scope.remove_with_dependents(from->effects, effect)),
+                                  from->effects));
     if (options_.repeats > 0) measure_time();
     return std::move(study_);
   }
@@ -96,17 +96,16 @@ class Study {
     return effects;
   }
 
-  /// Measures the computing times with the different sets of effects in turns and in random order,
-  /// so that a slowdown of the machine affects all sets.
+  /// Measures in turns and in random order the computing times with all effects, with the chosen
+  /// effects and without one effect. A slowdown of the machine therefore affects all of them.
   void measure_time() {
     std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
     for (EffectRun& run : study_.without_one) runs.push_back(&run);
     std::vector<std::function<void()>> works;
-    for (const EffectRun* run : runs) {
-      works.emplace_back([this, document = with_effects(document_, run->effects)] {
+    for (const EffectRun* run : runs)
+      works.emplace_back([this, document = apply_effects(document_, run->effects)] {
         (void)analyze(document, references_, {.drawing = false});
       });
-    }
     works.emplace_back(
         [this, scene = read_case_model(automatic_)] { (void)choose_effects(automatic_, scene); });
     const auto timings = measure_interleaved(works, {.repeats = options_.repeats}, nullptr);

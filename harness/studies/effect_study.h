@@ -19,7 +19,7 @@ struct EffectRun {
   solver::Counters counters;
   double work = 0;   ///< counted work, see `estimated_work` in coarse_scene.h
   Changes changes;   ///< changes of the results, relative to the results with all effects
-  double cpu_s = 0;  ///< median of the repeats, or time of a single run
+  double cpu_s = 0;  ///< median of the repeats; `without_chosen`: time of a single run
 
   /// Returns the largest relative change of the results, compared with all effects; infinite if the
   /// computation has no solution.
@@ -55,7 +55,8 @@ struct EffectStudy {
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  int repeats = 7;  ///< timed runs of each set of effects, after one warm-up; 0: no times
+  int repeats = 7;  ///< repeated runs for the times; 0: each time is that of a single run
+  bool measures_contributions = true;  ///< false: `EffectStudy::without_one` remains empty
 };
 
 /// Measures by how much each physical effect changes the results and the computing time of a case.

@@ -82,6 +82,7 @@ BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
     BOOST_TEST(run.changes.at("displacement").value == 0.00195, boost::test_tools::tolerance(2e-3));
     BOOST_TEST(run.changes.at("force").value < 1e-6);
   }
+  BOOST_TEST(study_effects(document, {0.01, 1, false}).without_one.empty());
 }
 
 /// Compares the dimensionless numbers of the mechanical effects of a member with their definitions,
