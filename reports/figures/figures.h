@@ -22,7 +22,7 @@ namespace trammel::reports {
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
 /// Figure of fitted against theoretical orders of convergence.
-[[nodiscard]] Figure order_figure(const std::vector<const Run*>& runs);
+[[nodiscard]] std::optional<Figure> order_figure(const std::vector<const Run*>& runs);
 
 /// Figure of processor time against error on logarithmic axes, with the Pareto front. The caption
 /// states the number of settings without a result.

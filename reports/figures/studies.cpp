@@ -176,7 +176,7 @@ Figure error_coverage_figure() {
                  {{"errors", points}}, "true error", "stated error", "stated = true");
 }
 
-Figure order_figure(const std::vector<const Run*>& runs) {
+std::optional<Figure> order_figure(const std::vector<const Run*>& runs) {
   std::set<std::vector<double>> places;
   int near = 0;
   Table table{words_in("case variant refinement quantity theory fitted"), {}};
@@ -188,6 +188,7 @@ Figure order_figure(const std::vector<const Run*>& runs) {
       if (std::abs(fitted - theory) <= 0.1 * std::max(1.0, theory)) ++near;
       table.rows.push_back({run->case_id, run->variant, c.sweep, c.quantity, theory, fitted});
     }
+  if (places.empty()) return std::nullopt;
   return scatter({.id = "orders-fitted",
                   .title = "Fitted against theoretical orders of convergence",
                   .caption = std::to_string(near) + " of " + count(table.rows.size(), "order") +

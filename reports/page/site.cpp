@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -74,7 +75,7 @@ Data site_data(const Results& results, const std::vector<Family>& families,
        {"has_runs", !results.runs.empty() || (figures.cost.empty() && figures.effects.empty())},
        {"summary", summary},
        {"front", front_page_section(results, families, figures)},
-       {"groups", family_groups(families)}});
+       {"groups", groups_of_families(families)}});
 }
 
 /// Returns links to the front page and to the pages of sections, for the navigation bar of the page
@@ -171,9 +172,8 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                                  const StudyFigures& figures) {
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
-  const Data index = front_page_data(results, families, figures);
-  std::vector<SiteFile> files;
-  const auto add = [&](const std::string& path, Data page, const std::string& body) {
+  const Data index = site_data(results, families, figures);
+  const auto make_page = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
                {"sections", links_to_pages(index, path, !results.references.empty())},
                {"families", family_contents(sections, path)},
@@ -182,9 +182,10 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                {"body", body}});
     return SiteFile{path, with_relative_links(render("page.mustache", page), path)};
   };
-  for (std::size_t f = 0; f < families.size(); ++f) {
+  const auto pages_of_family = [&](std::size_t f) {
     const std::string link = family_link(families[f].id);
-    add(link, titled_by(sections[f], "family_title"), body_of("family", sections[f]));
+    std::vector<SiteFile> pages{
+        make_page(link, page_heading(sections[f], "family_title"), body_of("family", sections[f]))};
     const auto& cases = families[f].cases;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Data data = case_section(*cases[i], families[f], results);
@@ -193,9 +194,20 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                   {"above_link", link},
                   {"previous", i > 0 ? case_link(cases[i - 1]->id) : ""},
                   {"next", i + 1 < cases.size() ? case_link(cases[i + 1]->id) : ""}});
-      add(case_link(cases[i]->id), title, body_of("case", data));
+      pages.push_back(make_page(case_link(cases[i]->id), title, body_of("case", data)));
     }
-  }
+    return pages;
+  };
+  // Pages of the first families are rendered in threads, the others at the end of this function.
+  constexpr std::size_t kThreads = 14;
+  std::vector<std::future<std::vector<SiteFile>>> family_pages;
+  for (std::size_t f = 0; f < families.size(); ++f)
+    family_pages.push_back(
+        std::async(f < kThreads ? std::launch::async : std::launch::deferred, pages_of_family, f));
+  std::vector<SiteFile> files;
+  const auto add = [&](const std::string& path, const Data& page, const std::string& body) {
+    files.push_back(make_page(path, page, body));
+  };
   if (!results.references.empty())
     add("references.html", object({{"heading", "References"}}),
         body_of("references", references_section(results)));
@@ -211,7 +223,8 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});
-  files.push_back({"checks/index.js", check_list(families)});
+  files.push_back({"checks/index.js", check_search_script(families)});
+  for (auto& pages : family_pages) std::ranges::move(pages.get(), std::back_inserter(files));
   return files;
 }
 

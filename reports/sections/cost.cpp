@@ -117,8 +117,8 @@ StudyFigures plan_studies(const Results& results, const std::vector<Family>& fam
   if (results.claims) {
     figures.errors.push_back(error_coverage_figure());
     if (auto figure = tolerance_figure("all", groups, all)) figures.trust.push_back(*figure);
-    figures.trust.push_back(order_figure(all));
   }
+  if (auto figure = order_figure(all)) figures.trust.push_back(std::move(*figure));
   if (auto figure = tolerance_figure("stress-cases", titles, stress, true))
     figures.stress.push_back(std::move(*figure));
   if (results.cost)

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
 #include "reports/sections/sections.h"
@@ -10,8 +7,6 @@
 namespace trammel::reports {
 
 namespace {
-
-constexpr double kOrderTolerance = 0.1;  ///< limit of |fitted / theoretical order - 1| for "near"
 
 /// Convergence of all values of one quantity in one refinement study (sweep) of one run.
 using OrderRow = std::vector<const Convergence*>;
@@ -31,8 +26,7 @@ std::vector<OrderRow> rows_of(const Run& run) {
 /// family.
 struct Findings {
   std::size_t rows = 0, entries = 0;
-  Interval order, law;               ///< fitted orders; relative misfits of two-term laws
-  std::size_t fitted = 0, near = 0;  ///< values with a fitted order; with one near theory
+  Interval order, law;  ///< fitted orders; relative misfits of two-term laws
 
   void add(const OrderRow& row) {
     ++rows;
@@ -42,11 +36,6 @@ struct Findings {
     ++entries;
     if (c.two_term) law.cover(c.two_term->max_relative_misfit);
     if (!c.lower_order) order.cover(c.fitted_order);
-    if (!c.lower_order && c.fitted_order && c.theory_order) {
-      ++fitted;
-      const double difference = std::abs(*c.fitted_order - *c.theory_order);
-      if (difference <= kOrderTolerance * std::max(1.0, *c.theory_order)) ++near;
-    }
   }
 };
 
@@ -60,7 +49,7 @@ std::string observed_text(const Findings& findings) {
   if (!findings.law.empty())
     return "two-term law within " + percent_text(findings.law.high, 2, false);
   if (findings.order.empty()) return "–";
-  return low_to_high(trimmed(findings.order.low, 3), trimmed(findings.order.high, 3));
+  return limits_text(trimmed(findings.order.low, 3), trimmed(findings.order.high, 3));
 }
 
 std::vector<std::string> cells_of(const OrderRow& row, const std::string& variant) {
@@ -72,18 +61,15 @@ std::vector<std::string> cells_of(const OrderRow& row, const std::string& varian
   return {quantity, theory_text(*row.front()), observed_text(findings)};
 }
 
-std::string conclusion_of(const Findings& all) {
-  std::string text = count(all.entries, "refinement") + ".";
-  if (all.fitted > 0)
-    text += " The fitted order is within 10\u202f% of the theoretical order for " +
-            std::to_string(all.near) + " of " + std::to_string(all.fitted) + ".";
+std::string conclusion_of_findings(const Findings& all) {
+  std::string text = "Summary of " + count(all.entries, "refinement") + ".";
   if (!all.law.empty())
     text += " If the error has terms of two orders, the sum of both terms fits it within " +
             percent_text(all.law.high, 2, false) + ".";
   return text;
 }
 
-Data family_of(const Family& family, Findings& all) {
+Data order_data_of_family(const Family& family, Findings& all) {
   TextTable table{family.title, {"Quantity", ">Order by theory", ">Observed"}};
   for (const CaseInfo* info : family.cases) {
     const std::size_t before = table.rows.size();
@@ -99,7 +85,7 @@ Data family_of(const Family& family, Findings& all) {
     table.rows.emplace(table.rows.begin() + static_cast<std::ptrdiff_t>(before), 1, title);
     table.links[title] = case_link(info->id);
   }
-  table.caption = conclusion_of(all);
+  table.caption = conclusion_of_findings(all);
   Data data = table_data(table);
   set(data, {{"folded_title", count(all.rows, "row")}});
   return data;
@@ -113,7 +99,7 @@ Data convergence_section(const Results& results, const std::vector<Family>& fami
   std::size_t entries = 0;
   for (const Family& family : families) {
     Findings all;
-    const Data data = family_of(family, all);
+    const Data data = order_data_of_family(family, all);
     if (all.rows > 0) shown.push_back(data);
     entries += all.entries;
   }
