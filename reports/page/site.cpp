@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -173,19 +172,19 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
   const Data index = site_data(results, families, figures);
-  const auto make_page = [&](const std::string& path, Data page, const std::string& body) {
+  std::vector<SiteFile> files;
+  const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},
                {"sections", links_to_pages(index, path, !results.references.empty())},
                {"families", family_contents(sections, path)},
                {"is_index", path == "index.html"},
                {"has_sidebar", path != "index.html" && !families.empty()},
                {"body", body}});
-    return SiteFile{path, with_relative_links(render("page.mustache", page), path)};
+    files.push_back({path, with_relative_links(render("page.mustache", page), path)});
   };
-  const auto pages_of_family = [&](std::size_t f) {
+  for (std::size_t f = 0; f < families.size(); ++f) {
     const std::string link = family_link(families[f].id);
-    std::vector<SiteFile> pages{
-        make_page(link, page_heading(sections[f], "family_title"), body_of("family", sections[f]))};
+    add(link, page_heading(sections[f], "family_title"), body_of("family", sections[f]));
     const auto& cases = families[f].cases;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Data data = case_section(*cases[i], families[f], results);
@@ -194,20 +193,9 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                   {"above_link", link},
                   {"previous", i > 0 ? case_link(cases[i - 1]->id) : ""},
                   {"next", i + 1 < cases.size() ? case_link(cases[i + 1]->id) : ""}});
-      pages.push_back(make_page(case_link(cases[i]->id), title, body_of("case", data)));
+      add(case_link(cases[i]->id), title, body_of("case", data));
     }
-    return pages;
-  };
-  // Pages of the first families are rendered in threads, the others at the end of this function.
-  constexpr std::size_t kThreads = 14;
-  std::vector<std::future<std::vector<SiteFile>>> family_pages;
-  for (std::size_t f = 0; f < families.size(); ++f)
-    family_pages.push_back(
-        std::async(f < kThreads ? std::launch::async : std::launch::deferred, pages_of_family, f));
-  std::vector<SiteFile> files;
-  const auto add = [&](const std::string& path, const Data& page, const std::string& body) {
-    files.push_back(make_page(path, page, body));
-  };
+  }
   if (!results.references.empty())
     add("references.html", object({{"heading", "References"}}),
         body_of("references", references_section(results)));
@@ -224,7 +212,6 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});
   files.push_back({"checks/index.js", check_search_script(families)});
-  for (auto& pages : family_pages) std::ranges::move(pages.get(), std::back_inserter(files));
   return files;
 }
 
