@@ -23,8 +23,8 @@ namespace trammel::harness {
 [[nodiscard]] Json parse_cbor(const std::string& bytes);
 
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
-/// @param max_multiline_depth  nesting level d from which on arrays are written on one line. Objects
-///   are written on one line from the level d - 1 on.
+/// @param max_multiline_depth  nesting level d from which on arrays are written on one line.
+///   Objects are written on one line from the level d - 1 on.
 [[nodiscard]] std::string format_json(const Json& json, std::size_t max_multiline_depth = 1000);
 
 /// Writes the complete file or nothing: the text is written into a temporary file in the same
