@@ -297,8 +297,8 @@ BOOST_AUTO_TEST_CASE(second_report_leaves_nothing_of_the_first) {
   for (const auto& entry : fs::directory_iterator(out / "figures"))
     drawings += entry.path().extension() == ".svg";
   drawings += occurrences(text, "class=\"thumbnail\" inert><svg ");
-  // The user's drawing is on no page, and the figure of fitted orders is on two pages.
-  BOOST_TEST(drawings + 1 == occurrences(text, "<svg ") + occurrences(text, "<iframe ") + 1);
+  // The user's drawing is on no page, but the figure of fitted orders is on two pages.
+  BOOST_TEST(drawings == occurrences(text, "<svg ") + occurrences(text, "<iframe "));
   for (const char* folder : {"cases", "families"})
     BOOST_TEST(std::distance(fs::directory_iterator(out / folder), {}) == 1, folder);
   BOOST_TEST(fs::exists(out / "figures" / "mine.svg"));
